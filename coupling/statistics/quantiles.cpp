@@ -1,6 +1,5 @@
 #include "coupling/statistics/quantiles.hpp"
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cassert>
 #include <cmath>
@@ -10,11 +9,6 @@ namespace drumlin::statistics {
 double student_quantile_99(int degrees_of_freedom) {
   assert(degrees_of_freedom >= 1);
   return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.995);
-}
-
-double chi_squared_quantile_99(int degrees_of_freedom) {
-  assert(degrees_of_freedom >= 1);
-  return boost::math::quantile(boost::math::chi_squared(degrees_of_freedom), 0.99);
 }
 
 double quantile_99_of_told_errors(double reduced_chi2, int degrees_of_freedom) {

@@ -11,9 +11,6 @@ inline constexpr double normal_quantile_99 = 2.5758293035489;
 /// 0.99 for Student's t. 63.66 for one, 9.92 for two, 2.58 for many. Needs at least one.
 double student_quantile_99(int degrees_of_freedom);
 
-/// Value that chi^2 stays below with a probability of 99 %. Needs at least one degree of freedom.
-double chi_squared_quantile_99(int degrees_of_freedom);
-
 /// Half width of a 99 % interval per standard error that was told, where so many degrees of freedom of
 /// scatter give `reduced_chi2` = chi^2/degrees_of_freedom in the units of what was told: the larger of
 /// normal_quantile_99 and Student's t times sqrt(reduced_chi2). The first is right where the told error is,

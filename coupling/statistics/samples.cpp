@@ -37,19 +37,7 @@ WeightedMean weighted_mean(std::span<const double> values, std::span<const doubl
   }
   result.value /= weights;
   result.variance = 1 / weights;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    result.chi_squared += (values[i] - result.value) * (values[i] - result.value) / variances[i];
   return result;
-}
-
-void PooledVariance::add(double sum_of_squares, std::size_t count) {
-  if (count < 2) return;
-  sum_of_squares_ += sum_of_squares;
-  degrees_of_freedom_ += static_cast<int>(count) - 1;
-}
-
-double PooledVariance::value() const {
-  return degrees_of_freedom_ > 0 ? sum_of_squares_ / degrees_of_freedom_ : nan;
 }
 
 }  // namespace drumlin::statistics

@@ -15,13 +15,13 @@ struct Points {
   std::span<const double> x, y, variance;
 };
 
-void add_scatter(const Points& points, int coefficients, StraightLine& line) {
+void add_scatter(const Points& points, StraightLine& line) {
   for (std::size_t i = 0; i < points.x.size(); ++i) {
     const double residual = points.y[i] - line.intercept - line.slope * points.x[i];
     line.chi_squared += residual * residual / points.variance[i];
   }
   line.points = points.x.size();
-  line.degrees_of_freedom = static_cast<int>(points.x.size()) - coefficients;
+  line.degrees_of_freedom = static_cast<int>(points.x.size()) - 2;
 }
 
 /// About the weighted means of x and y, so that a large mean costs no digits.
@@ -39,7 +39,7 @@ std::optional<StraightLine> fit_about(double mean_x, double mean_y, double var_m
   line.var_slope = 1 / sxx;
   line.var_intercept = var_mean + mean_x * mean_x / sxx;
   line.covariance = -mean_x / sxx;
-  add_scatter(points, 2, line);
+  add_scatter(points, line);
   return line;
 }
 
@@ -76,22 +76,6 @@ std::optional<StraightLine> fit_line(std::span<const double> x, std::span<const 
   if (x.size() < 2) return std::nullopt;
   const WeightedMean middle_x = weighted_mean(x, variance), middle_y = weighted_mean(y, variance);
   return fit_about(middle_x.value, middle_y.value, middle_x.variance, {x, y, variance});
-}
-
-std::optional<StraightLine> fit_proportional(std::span<const double> x, std::span<const double> y,
-                                             std::span<const double> variance) {
-  assert(x.size() == y.size() && x.size() == variance.size());
-  double sxx = 0, sxy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    sxx += x[i] * x[i] / variance[i];
-    sxy += x[i] * y[i] / variance[i];
-  }
-  if (!(sxx > 0)) return std::nullopt;
-  StraightLine line;
-  line.slope = sxy / sxx;
-  line.var_slope = 1 / sxx;
-  add_scatter({x, y, variance}, 1, line);
-  return line;
 }
 
 }  // namespace drumlin::statistics

@@ -42,9 +42,4 @@ std::optional<StraightLine> fit_line(std::span<const double> x, std::span<const 
 std::optional<StraightLine> fit_line(std::span<const double> x, std::span<const double> y,
                                      std::span<const double> variance);
 
-/// y = slope x, weights 1/variance; intercept and its variances are zero. Needs an x that is not zero
-/// (nothing otherwise).
-std::optional<StraightLine> fit_proportional(std::span<const double> x, std::span<const double> y,
-                                             std::span<const double> variance);
-
 }  // namespace drumlin::statistics

@@ -17,10 +17,6 @@ TEST(Samples, MeanAndVarianceByHand) {
 TEST(Samples, TooLittleIsNotANumber) {
   EXPECT_TRUE(std::isnan(mean({})));
   EXPECT_TRUE(std::isnan(variance(std::vector<double>{1.0})));
-  PooledVariance pooled;
-  pooled.add(0, 1);
-  EXPECT_TRUE(std::isnan(pooled.value()));
-  EXPECT_EQ(pooled.degrees_of_freedom(), 0);
 }
 
 TEST(Samples, AWeightIsAsManyRepetitions) {
@@ -30,7 +26,6 @@ TEST(Samples, AWeightIsAsManyRepetitions) {
   const WeightedMean found = weighted_mean(values, variances);
   EXPECT_DOUBLE_EQ(found.value, mean(repeated));
   EXPECT_DOUBLE_EQ(found.variance, 1.0 / 5);
-  EXPECT_DOUBLE_EQ(found.chi_squared, variance(repeated) * 4);
 }
 
 TEST(Samples, EqualVariancesGiveThePlainMean) {
@@ -38,15 +33,6 @@ TEST(Samples, EqualVariancesGiveThePlainMean) {
   const WeightedMean found = weighted_mean(values, std::vector<double>(4, 9.0));
   EXPECT_DOUBLE_EQ(found.value, mean(values));
   EXPECT_DOUBLE_EQ(found.variance, 9.0 / 4);
-}
-
-TEST(Samples, PooledVarianceAddsSquaresAndDegreesOfFreedom) {
-  PooledVariance pooled;
-  pooled.add(2 * 5.0, 3);  // variance 5 of three
-  EXPECT_DOUBLE_EQ(pooled.value(), 5);
-  pooled.add(1 * 2.0, 2);  // variance 2 of two
-  EXPECT_DOUBLE_EQ(pooled.value(), (10 + 2) / 3.0);
-  EXPECT_EQ(pooled.degrees_of_freedom(), 3);
 }
 
 }  // namespace

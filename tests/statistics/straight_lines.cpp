@@ -82,16 +82,6 @@ TEST(StraightLine, NeedsTwoPlaces) {
   EXPECT_FALSE(fit_line(Values{}, Values{}));
   EXPECT_FALSE(fit_line(Values{2, 2, 2}, Values{1, 2, 3}));
   EXPECT_FALSE(fit_line(Values{1, std::numeric_limits<double>::quiet_NaN()}, Values{1, 2}));
-  EXPECT_FALSE(fit_proportional(Values{0}, Values{2}, Values{1}));
-}
-
-TEST(StraightLine, ThroughTheOriginWithXOfOneIsTheMean) {
-  const StraightLine line = *fit_proportional(Values{1, 1, 1}, Values{2, 3, 7}, Values{1, 1, 1});
-  EXPECT_NEAR(line.slope, 4, 1e-15);
-  EXPECT_EQ(line.intercept, 0);
-  EXPECT_NEAR(line.var_slope, 1.0 / 3, 1e-16);
-  EXPECT_NEAR(line.reduced_chi_squared(), 7, 1e-14);
-  EXPECT_EQ(line.degrees_of_freedom, 2);
 }
 
 TEST(StraightLine, RelativeVariancesDoNotKnowTheirUnit) {
