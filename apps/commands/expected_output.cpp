@@ -9,7 +9,8 @@ namespace drumlin::apps {
 namespace {
 
 // docs/formats/snapshot.md; HDF5's own bookkeeping; a line of log.csv; a checkpoint's share of a grain.
-constexpr double contacts_per_grain = 1.7, bookkeeping = 18e3, log_line_bytes = 100, checkpoint_per_grain = 106;
+constexpr double contacts_per_grain = 1.7, bookkeeping = 18e3, log_line_bytes = 100,
+                 checkpoint_per_grain = 106;
 
 std::string megabytes(double bytes) {
   const double mb = bytes * 1e-6;

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 constexpr double share_for_accuracy = 0.05;  // of the simulated time, as a first choice
 constexpr double cost_of_three = 5;          // stretches: 1 + 2 by the step + about 2 by the tolerance
 
-Json to_json(const particles::StretchChange& change) {
+Json change_json(const particles::StretchChange& change) {
   return {{"change", change.value}, {"ci99", change.ci99}, {"error_at_most", change.error_at_most}};
 }
 
@@ -34,7 +34,7 @@ Json to_json(const particles::PairedStretches& stretches) {
   Json quantities = Json::object();
   for (const particles::StretchComparison& one : stretches.quantities)
     quantities[one.quantity] = {
-        {"value", one.value}, {"step", to_json(one.step)}, {"solver", to_json(one.solver)}};
+        {"value", one.value}, {"step", change_json(one.step)}, {"solver", change_json(one.solver)}};
   return {{"seconds", stretches.seconds},
           {"cpu_seconds", stretches.cpu_seconds},
           {"cpu_seconds_plain", stretches.cost[0]},

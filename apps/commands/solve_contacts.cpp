@@ -76,8 +76,8 @@ particles::ContactNotes notes_of(const BlockProblem& problem, const Solved& solv
   return notes;
 }
 
-nlohmann::ordered_json to_json(const particles::BackwardError& error,
-                               const particles::ContactProblemFile& file) {
+nlohmann::ordered_json error_json(const particles::BackwardError& error,
+                                  const particles::ContactProblemFile& file) {
   nlohmann::ordered_json json = {{"friction", error.friction}, {"dq", error.dq},
                                  {"dq_max", error.dq_max},     {"dq_gh", nullptr},
                                  {"force", error.force},       {"dr", error.dr},
@@ -117,7 +117,8 @@ void print_json(const particles::ContactProblemFile& file, const Solved& solved,
                                     {"asymmetry", file.asymmetry},
                                     {"solver", options.solver},
                                     {"tolerance", options.tolerance}};
-  for (const auto& error : solved.backward_errors) printed["backward_error"].push_back(to_json(error, file));
+  for (const auto& error : solved.backward_errors)
+    printed["backward_error"].push_back(error_json(error, file));
   if (const auto& changes = solved.changes)
     printed["changes"] = {{"sweeps", *options.watch},
                           {"contacts", changes->changed},

@@ -15,7 +15,7 @@
 namespace drumlin::particles {
 namespace {
 
-constexpr double room_around = 1 + 4e-7;  // radii are so much larger while discs are placed
+constexpr double widened = 1 + 4e-7;        // radii are so much larger while discs are placed
 constexpr double nearly_touching = 1e-9;  // relative to a radius
 constexpr double bin_width = 8;           // in mean diameters: grains fall where a bin's surface is lowest
 constexpr int attempts_in_bin = 5;        // to find a place in a bin that is then called full
@@ -220,7 +220,7 @@ std::vector<Point_mm> deposited_centers_mm(std::span<const double> diameters_mm,
   std::vector<double> radii;
   double mean = 0;
   for (const double d : diameters_mm) {
-    radii.push_back(room_around * d / 2);
+    radii.push_back(widened * d / 2);
     mean += d / static_cast<double>(diameters_mm.size());
   }
   Landscape landscape(region, radii);

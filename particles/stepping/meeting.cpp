@@ -184,8 +184,8 @@ void keep_parting(const PairPath& path, double gap_before, double h, Candidate& 
 
 /// Whether a grain touches a wall and goes on into it: nearly all grains at walls.
 bool stays_in_contact(const StepInput& step, const Candidate& pair) {
-  constexpr double rounding = 1e-10;
-  if (pair.gap > rounding) return false;
+  constexpr double rounded_gap = 1e-10;
+  if (pair.gap > rounded_gap) return false;
   const Shape& shape = step.walls.before[-1 - pair.j];
   if (std::holds_alternative<FixedDisc>(shape)) return false;  // convex: it may fall away below the grain
   if (const auto* arc = std::get_if<Arc>(&shape))
