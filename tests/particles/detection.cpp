@@ -91,7 +91,8 @@ TEST(Detection, FindsTheWallsThatGrainsMayMeet) {
   const std::vector<ShapeStep> still(walls.size());
   for (const Period& period : {Period{}, Period{1, 16}}) {
     Grains g = packed(300, 0.2, 1, random);
-    for (std::size_t b = 0; b < g.count(); b += 50) g.v_x[b] = 60, g.v_z[b] = -60;
+    for (std::size_t b = 0; b < g.count(); ++b)
+      g.v_x[b] = random.uniform(-60, 60), g.v_z[b] = random.uniform(-60, 60);
     ContactDetection detection;
     const auto& pairs = detection.find(g.bodies, g.v_x, g.v_z, {walls, still, time_step, margin, period});
     int needed = 0;
