@@ -1,6 +1,6 @@
 #pragma once
 // A run on several ranks: the first one reads and writes all files and says what is done; the others follow
-// it and do their shares of its steps (docs/decisions/ranks.md).
+// it and do their shares of its steps (docs/decisions.md).
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>

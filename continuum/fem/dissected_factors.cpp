@@ -12,7 +12,7 @@
 namespace drumlin::continuum::fem {
 namespace {
 
-// Operations of MUMPS on n unknowns of these meshes are about 117 n^1.5 (docs/decisions/linear-solver.md).
+// Operations of MUMPS on n unknowns of these meshes are about 117 n^1.5 (docs/decisions.md).
 // The dense part may take this share of what a rank has of them.
 constexpr double operations = 117, most_dense = 0.25;
 

@@ -1,6 +1,6 @@
 #pragma once
 // Registration: which places of two runs are the same place of the drum
-// (docs/decisions/comparison-registration.md).
+// (docs/decisions.md).
 #include "coupling/exchange/field_map.hpp"
 #include "coupling/exchange/profile_set.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The processes that take the steps of one run together (docs/decisions/ranks.md).
+// The processes that take the steps of one run together (docs/decisions.md).
 #include <cstddef>
 #include <span>
 #include <type_traits>

@@ -13,7 +13,7 @@ enum class SweepExtrapolation {
   none,
   rounded,  ///< impulses and velocities go further on, each rounded by itself
   /// Velocities receive what the impulses round off, too. Momentum would carry it on, and impulses under a
-  /// deep bed are large beside what is left of them at a disc (docs/decisions/contact-solver.md).
+  /// deep bed are large beside what is left of them at a disc (docs/decisions.md).
   exact
 };
 
@@ -35,7 +35,7 @@ inline SweepExtrapolation extrapolation_of(bool accelerated, std::int64_t contac
 ///
 /// Measured on flow steps of 7183 discs, mu = 0.4, warm: 174 sweeps to a residual of 3e-3 where beginning
 /// again from nothing takes 204; a column of 1000 discs, cold, 6,190 to 1e-4 in place of 24,440
-/// (docs/decisions/contact-solver.md).
+/// (docs/decisions.md).
 ///
 /// The age begins where a solve is expected to need it: by the tolerance, since 0.8 is what the first fifty
 /// sweeps of a flow can use and larger factors what the next hundred can; and by the size, since a wide

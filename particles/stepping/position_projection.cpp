@@ -11,7 +11,7 @@ namespace {
 
 /// Adds the walls that a force moves. One that presses and is heavier than the mean grain counts as heavy as
 /// that: a few sweeps would not lift it off the grains, its force would push it further in each step, and
-/// overlap would grow without end (docs/decisions/position-projection.md). Inertia is no matter of positions.
+/// overlap would grow without end (docs/decisions.md). Inertia is no matter of positions.
 /// A wall without force keeps its mass: one of huge mass is a fixed wall.
 void add_driven_walls(const Bodies& bodies, const WallStep& walls, FrictionlessProblem::Delassus& W) {
   W.driven.clear();

@@ -55,7 +55,7 @@ TEST(Inertia, IsFollowedToThePapersDrumAtTheEpsOfTheScenes) {
                                      {.surface_cell = 2, .surface_zone = 16, .levels = 1}, {}, {});
   problem.inertia = Inertia{};
   const FlowField field = converged(problem, one_mesh());
-  EXPECT_NEAR(field.theta() / degree, 17.4, 0.3);  // docs/decisions/flow-effects.md
+  EXPECT_NEAR(field.theta() / degree, 17.4, 0.3);  // docs/decisions.md
   // Cells of 2 d: Q2-Q1 hold div u = 0 in the mean alone, and kinetic energy is carried by what is
   // left. 1.3e-3 here, 4e-5 on the meshes of the scene.
   EXPECT_NEAR(drum_checks(field, paper).value("power_relative_error"), 0, 3e-3);
@@ -138,7 +138,7 @@ TEST(AdaptiveMesh, HalvesAShareOfTheCellsAndStaysCloseToTheFineMesh) {
   const FlowField fine = solved(3, 1), adapted = solved(3, 0.3);
   EXPECT_LT(adapted.unknowns(), 0.5 * fine.unknowns());
   // No better than halving all cells for as many unknowns: the indicator sees the corners, the slope hangs on
-  // the stresses of the nearly rigid core (docs/decisions/flow-effects.md).
+  // the stresses of the nearly rigid core.
   EXPECT_NEAR(adapted.theta(), fine.theta(), 1 * degree);
 }
 

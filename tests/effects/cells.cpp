@@ -314,7 +314,7 @@ int missed_steps(const std::string& solver, double mu, bool pressed) {
 }
 
 // None is right. In a step of some hundred sweeps swing for ever, from any start that was tried
-// (docs/decisions/contact-solver.md); the hard cases hold the expectation.
+// (docs/decisions.md); the hard cases hold the expectation.
 TEST(SteepFriction, MissesAtMostAStepInAHundred) {
   int missed = 0, runs = 0;
   for (const std::string solver : {"accelerated", "nlgs"})

@@ -1,6 +1,6 @@
 #pragma once
 // HDF5 files described line by line, so that inputs reach our checks: raw bytes behind a valid checksum would
-// test HDF5 instead (docs/decisions/fuzzing.md).
+// test HDF5 instead (docs/decisions.md).
 #include <filesystem>
 #include <string>
 

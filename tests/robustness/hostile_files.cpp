@@ -1,5 +1,5 @@
 // Damaged and hostile files: every reader either reads them or refuses them with InputError. Mutations are
-// drawn from fixed seeds, so that a failure can be repeated (docs/decisions/fuzzing.md).
+// drawn from fixed seeds, so that a failure can be repeated (docs/decisions.md).
 #include <gtest/gtest.h>
 
 #include <algorithm>

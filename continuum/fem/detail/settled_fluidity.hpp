@@ -10,7 +10,7 @@ namespace drumlin::continuum::fem {
 /// Solves A^2 lap g = mu_loc g - 2|D| for y = ln g where velocity and pressure are given: linear in g, so
 /// that it has one solution, and few steps find it from any start. A residual of the momentum after this is
 /// that of a flow whose stress depends on the velocity alone; Newton's method for that flow has the tangent
-/// of the whole system (docs/decisions/flow-effects.md says what happens where y is left to Newton's method).
+/// of the whole system (docs/decisions.md says what happens where y is left to Newton's method).
 /// Made anew with the mesh.
 class SettledFluidity {
  public:

@@ -1,5 +1,5 @@
 #pragma once
-// Each grain's share of the plane (docs/decisions/voronoi.md): cells of the radical tessellation, closed at
+// Each grain's share of the plane (docs/decisions.md): cells of the radical tessellation, closed at
 // the container, across a period and at the free surface.
 #include <cstddef>
 #include <cstdint>
