@@ -45,7 +45,7 @@ def folder_of(name):
 
 
 def rooms_of(page):
-    """What the table "Rooms" says: folder -> folders that it may include. A word of its last column is a folder, or
+    """What the table "Modules" says: folder -> folders that it may include. A word of its last column is a folder, or
     the name of a group, which a line `group`: `folder`, ... of the page explains; "all" allows everything."""
     text = page.read_text(encoding="utf-8")
     groups = {name: re.findall(r"`([\w/]+)`", rest) for name, rest in re.findall(r"^- \*\*(\w+)\*\*: (.*)$", text, re.MULTILINE)}
