@@ -10,6 +10,7 @@
 #include "particles/measurement/grains/voronoi_cells.hpp"
 #include "particles/measurement/history/region_history.hpp"
 #include "particles/measurement/maps/map_measurement.hpp"
+#include "tests/measurement/collected_maps.hpp"
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {
@@ -76,6 +77,10 @@ void expect_all_near(const std::vector<double>& values, double right, double tol
   for (std::size_t l = 0; l < values.size(); ++l) EXPECT_NEAR(values[l], right, tolerance) << l;
 }
 
+void expect_all(const Measurement& measured, const char* name, double right, double tolerance) {
+  expect_all_near(measured.profiles.column(name).value, right, tolerance);
+}
+
 double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -89,9 +94,9 @@ TEST(ClosedCell, AtRestTheProfileSpansTheCellWithOneVolumeFraction) {
   EXPECT_NEAR(measured.profiles.z.back(), -row_height / 2, 1e-12);
   EXPECT_NEAR(measured.surface_z, bottom + side, 1e-12);
   EXPECT_NEAR(measured.wall_z, -side, 1e-12);
-  expect_all_near(measured.profiles.column("nu").value, 150 * pi / 4 / 225, 1e-12);
-  expect_all_near(measured.profiles.column("count").value, 15, 0);
-  expect_all_near(measured.profiles.column("shear_rate").value, 0, 1e-12);
+  expect_all(measured, "nu", 150 * pi / 4 / 225, 1e-12);
+  expect_all(measured, "count", 15, 0);
+  expect_all(measured, "shear_rate", 0, 1e-12);
 }
 
 TEST(ClosedCell, MeansOverItsLayersAreThoseOfTheCell) {
@@ -130,7 +135,7 @@ TEST(ClosedCell, MovingItKeepsItsVolumeFractionAndHasItsShearRateUpToTheEnds) {
     options.layer_thickness = row_height;
     return testing::measurement_of(first, options);
   }();
-  expect_all_near(measured.profiles.column("shear_rate").value, shear, 1e-12);
+  expect_all(measured, "shear_rate", shear, 1e-12);
   // Two heights: rows stand at the same shares of both.
   Snapshot same_rate = first;
   same_rate.cell->shear = later.cell->shear;
@@ -138,7 +143,7 @@ TEST(ClosedCell, MovingItKeepsItsVolumeFractionAndHasItsShearRateUpToTheEnds) {
   options.layer_thickness = row_height;
   const Measurement both = measurement(testing::source_of({same_rate, later}), options);
   const double area = side * side + later.period_x * later.cell->height;
-  expect_all_near(both.profiles.column("nu").value, 2 * 150 * pi / 4 / area, 1e-12);
+  expect_all(both, "nu", 2 * 150 * pi / 4 / area, 1e-12);
   EXPECT_NEAR(both.layer_thickness, (side + later.cell->height) / 20, 1e-12);
   EXPECT_NEAR(both.place.slice_width, (side + later.period_x) / 2, 1e-12);
 }
@@ -156,8 +161,8 @@ TEST(ClosedCell, ForcesAcrossItsBorderCountInFull) {
   for (std::int32_t i = 0; i < 15; ++i)
     s.contacts.push_back({(i + 1) % 15, i, 0, 1, 3 * s.time_step, s.time_step});
   const Measurement measured = testing::measurement_of(scattered(s));
-  expect_all_near(measured.profiles.column("sigma_zz").value, 3 / side, 1e-12);
-  expect_all_near(measured.profiles.column("sigma_xz").value, -1 / side, 1e-12);
+  expect_all(measured, "sigma_zz", 3 / side, 1e-12);
+  expect_all(measured, "sigma_xz", -1 / side, 1e-12);
   const RegionState state = RegionHistory({left, left + side, bottom, bottom + side}).add(scattered(s));
   EXPECT_NEAR(state.pressure.zz, 3 / side, 1e-12);
   EXPECT_EQ(state.grains, 15u);
@@ -250,30 +255,9 @@ Snapshot fine_lattice() {
 }
 
 FieldMap map_of(const std::vector<Snapshot>& snapshots) {
-  MapReading reading;
-  MeasurementPart part;
-  MeasurementFrame place;
-  part.begin = [&](const MeasurementFrame& at) {
-    place = at;
-    reading = begun_maps(at, 1, 1, std::make_shared<ScratchFile>(std::filesystem::temp_directory_path()));
-  };
-  part.add = [&](const Snapshot& snapshot, const FlowSnapshot& in_frame, std::size_t batch) {
-    add_snapshot(snapshot, in_frame, batch, reading);
-  };
-  const std::vector<MeasurementPart> parts{part};
-  const Measurement measured = measurement(testing::source_of(snapshots), {}, parts);
-  FieldMap map;
-  measured_maps(std::move(reading), place, measured.surface_z, {},
-                [&](const MapGrid& grid, const MapRows& of) {
-                  map.grid = grid;
-                  map.fields.resize(of.fields.size());
-                  for (std::size_t f = 0; f < of.fields.size(); ++f) {
-                    map.fields[f].name = of.fields[f].name;
-                    auto& values = map.fields[f].value;
-                    values.insert(values.end(), of.fields[f].value.begin(), of.fields[f].value.end());
-                  }
-                });
-  return map;
+  const MeasurementFrame place = measurement(testing::source_of(snapshots), {}).place;
+  return testing::collected_maps(begun_maps(place, 1, 1, std::make_shared<ScratchFile>()).graining,
+                                 snapshots);
 }
 
 TEST(ClosedCell, MapsHaveNoBorder) {
@@ -282,7 +266,7 @@ TEST(ClosedCell, MapsHaveNoBorder) {
   const FieldMap map = map_of({s, after(s, 0.2, 0, 0.3)});
   ASSERT_EQ(map.grid.rows, 15u);
   ASSERT_EQ(map.grid.columns, 15u);
-  EXPECT_NEAR(map.grid.z_first, -14.5, 1e-12);
+  EXPECT_NEAR(map.grid.z_first, bottom + 0.5, 1e-12);
   expect_all_near(map.field("nu").value, 900 * 0.04 * pi / 225, 1e-12);
   expect_all_near(map.field("d_v_x_dz").value, 0.3, 1e-12);
   expect_all_near(map.field("displacement_d_v_x_dz").value, 0.3, 1e-12);

@@ -50,6 +50,12 @@ Snapshot with_scales(Snapshot snapshot) {
   return snapshot;
 }
 
+Snapshot small_columns() { return with_scales(drumlin::testing::stacked_columns(6, 12, 0.2)); }
+
+nlohmann::json measured_json(const fs::path& run) {
+  return nlohmann::json::parse(file_text(run / "measured" / "measured.json"));
+}
+
 MeasureOptions options_for(const fs::path& run, ExistingOutput existing = ExistingOutput::refuse) {
   MeasureOptions options;
   options.run = run;
@@ -70,7 +76,7 @@ TEST(MeasureCommand, LeavesProfilesScalarsAndFigures) {
   EXPECT_NEAR(scalars.value("residual_mean"), 0.015, 1e-12);
   EXPECT_NEAR(scalars.value("Q"), 0, 1e-9);
   EXPECT_TRUE(std::isnan(scalars.value("H")));  // nothing flows: not measured, and not 0
-  const auto json = nlohmann::json::parse(file_text(run / "measured" / "measured.json"));
+  const auto json = measured_json(run);
   EXPECT_TRUE(json["H"]["value"].is_null());
   EXPECT_EQ(json["reduced"], true);
   const ProfileSet profiles = read_profiles(run / "measured" / "profiles.csv");
@@ -99,7 +105,7 @@ TEST(MeasureCommand, MapsStandOnTheHeightsOfTheProfiles) {
   // Well inside, layers and kernel see the same weight above.
   const auto row = static_cast<std::size_t>(std::round(rows)) + 6;
   EXPECT_NEAR(map.field("sigma_zz").value[row * 8], profiles.column("sigma_zz").value[6], 2e-3);
-  const auto json = nlohmann::json::parse(file_text(run / "measured" / "measured.json"));
+  const auto json = measured_json(run);
   EXPECT_NEAR(json.at("momentum_balance").at("bulk").at("rms_z").get<double>(), 0, 1e-9);
   EXPECT_TRUE(json.at("mu_invariant").at("a").at("value").is_null());  // nothing moves: no I to fit over
   EXPECT_TRUE(fs::exists(run / "measured" / "maps.png"));
@@ -111,14 +117,14 @@ TEST(MeasureCommand, MapsStandOnTheHeightsOfTheProfiles) {
 
 TEST(MeasureCommand, MeasuresForcesWhereContactsCarryAny) {
   const TemporaryFolder folder;
-  const Snapshot columns = with_scales(drumlin::testing::stacked_columns(6, 12, 0.2));
-  const fs::path run = run_folder(folder, "finished", std::vector<Snapshot>(5, columns));
+  const Snapshot packing = small_columns();
+  const fs::path run = run_folder(folder, "finished", std::vector<Snapshot>(5, packing));
   MeasureOptions options = options_for(run);
   options.parts = {"forces"};
   EXPECT_EQ(measure(options), 0);
   const ProfileSet layers = read_profiles(run / "measured" / "forces.csv");
   EXPECT_EQ(layers.column("contacts").value.front(), 30);  // six on the lowest row, five snapshots
-  const auto json = nlohmann::json::parse(file_text(run / "measured" / "measured.json"));
+  const auto json = measured_json(run);
   const auto wall = json.at("forces").at("zones").at("wall");
   EXPECT_NEAR(wall.at("f_t_over_f_n").at("value").get<double>(), std::tan(0.2), 1e-6);
   EXPECT_FALSE(wall.contains("sliding_share"));  // without a scene the friction is not known
@@ -130,7 +136,7 @@ TEST(MeasureCommand, MeasuresForcesWhereContactsCarryAny) {
   run_folder(folder, "finished", {loose});
   options.existing = ExistingOutput::overwrite;
   EXPECT_EQ(measure(options), 0);
-  EXPECT_TRUE(nlohmann::json::parse(file_text(run / "measured" / "measured.json"))["forces"].is_null());
+  EXPECT_TRUE(measured_json(run)["forces"].is_null());
   EXPECT_FALSE(fs::exists(run / "measured" / "forces.csv"));
 }
 
@@ -147,8 +153,7 @@ TEST(MeasureCommand, RefusesSlicesInOnePlaceOrNowhere) {
 
 TEST(MeasureCommand, KeepsWhatIsThereUnlessToldOtherwise) {
   const TemporaryFolder folder;
-  const fs::path run =
-      run_folder(folder, "finished", {with_scales(drumlin::testing::stacked_columns(6, 12, 0.2))});
+  const fs::path run = run_folder(folder, "finished", {small_columns()});
   EXPECT_EQ(measure(options_for(run)), 0);
   const fs::path result = run / "measured" / "measured.json";
   const std::string before = file_text(result);
@@ -164,9 +169,7 @@ TEST(MeasureCommand, KeepsWhatIsThereUnlessToldOtherwise) {
 // That a script which fails is named and costs the others nothing: PendingFigures in tests/exchange_files.
 TEST(MeasureCommand, FiguresThatAreMissingAreDrawnAgainAndCostNoNumber) {
   const TemporaryFolder folder;
-  const fs::path run =
-      run_folder(folder, "finished",
-                 std::vector<Snapshot>(5, with_scales(drumlin::testing::stacked_columns(6, 12, 0.2))));
+  const fs::path run = run_folder(folder, "finished", std::vector<Snapshot>(5, small_columns()));
   const fs::path results = run / "measured";
   MeasureOptions options = options_for(run);
   options.parts = {"forces"};
@@ -191,8 +194,7 @@ TEST(MeasureCommand, FiguresThatAreMissingAreDrawnAgainAndCostNoNumber) {
 
 TEST(MeasureCommand, RefusesWhatIsNoFinishedRun) {
   const TemporaryFolder folder;
-  const fs::path run =
-      run_folder(folder, "running", {with_scales(drumlin::testing::stacked_columns(6, 12, 0.2))});
+  const fs::path run = run_folder(folder, "running", {small_columns()});
   EXPECT_NE(message_of<InputError>([&] { measure(options_for(run)); }).find("unfinished"), std::string::npos);
   EXPECT_FALSE(fs::exists(run / "measured"));
   EXPECT_THROW(measure(options_for(folder / "nowhere")), InputError);
@@ -208,7 +210,7 @@ TEST(MeasureCommand, RefusesWhatIsNoFinishedRun) {
 
 TEST(MeasureCommand, WritesTheFieldsOfEveryGrainOfTheSnapshotsAskedFor) {
   const TemporaryFolder folder;
-  std::vector<Snapshot> snapshots(3, with_scales(drumlin::testing::stacked_columns(6, 12, 0.2)));
+  std::vector<Snapshot> snapshots(3, small_columns());
   for (std::size_t s = 0; s < 3; ++s) snapshots[s].step = static_cast<std::int64_t>(100 + s);
   const fs::path run = run_folder(folder, "finished", snapshots);
   MeasureOptions options = options_for(run);
@@ -310,25 +312,6 @@ TEST(CalibrateCommand, RefusesWhatItCannotUse) {
   options.validate = {measured_folder(folder, "light", example_profiles(), other)};
   EXPECT_THROW(calibrate(options), InputError);
   EXPECT_FALSE(fs::exists(options.output));
-}
-
-TEST(CalibrateCommand, RefusesALawThatFallsWithI) {
-  const TemporaryFolder folder;
-  CalibrateOptions options;
-  options.runs = {measured_run(folder, "six", -0.01)};
-  options.output = folder / "rheology.toml";
-  options.law = "log";
-  EXPECT_NE(message_of<InputError>([&] { calibrate(options); }).find("does not grow"), std::string::npos);
-  EXPECT_FALSE(fs::exists(options.output));
-}
-
-TEST(CalibrateCommand, AsksForMeasuredRuns) {
-  const TemporaryFolder folder;
-  CalibrateOptions options;
-  options.output = folder / "rheology.toml";
-  EXPECT_THROW(calibrate(options), InputError);
-  options.runs = {folder.path()};
-  EXPECT_NE(message_of<InputError>([&] { calibrate(options); }).find("drumlin measure"), std::string::npos);
 }
 
 }  // namespace

@@ -26,6 +26,10 @@ ProfileSet ring_profiles(const LayerGrid& grid, const Snapshot& snapshot) {
   return table_of(profile_of(grid, sums_of(grid, snapshot), 0), ring_quantities());
 }
 
+double value_of(const ProfileSet& profiles, const char* name, std::size_t layer) {
+  return profiles.column(name).value[layer];
+}
+
 /// Discs at random about (3, -2) that turn about it clockwise with angular velocity w(r).
 template <class AngularVelocity>
 Snapshot turning(AngularVelocity w) {
@@ -54,7 +58,7 @@ TEST(Rings, SolidBodyTurnsWithOmegaTimesRAndWithoutShear) {
     const LayerGrid grid = ring_grid(3, -2, 1, 8, 0);
     const ProfileSet profiles = ring_profiles(grid, plain);
     ASSERT_EQ(profiles.z.size(), 8u);
-    const auto value = [&](const char* name, std::size_t l) { return profiles.column(name).value[l]; };
+    const auto value = [&](const char* name, std::size_t l) { return value_of(profiles, name, l); };
     for (std::size_t l = 0; l < 8; ++l) {
       EXPECT_NEAR(value("v_t", l), omega * profiles.z[l], 1e-12);
       EXPECT_NEAR(value("v_r", l), 0, 1e-12);
@@ -87,8 +91,8 @@ TEST(Rings, VortexHasItsShearRate) {
     const double r = profiles.z[l];
     const auto w = [](double at) { return 5 / (at * at); };
     const double quotient = r * (w(r + thickness) - w(r - thickness)) / (2 * thickness);
-    EXPECT_NEAR(profiles.column("v_t").value[l], 5 / r, 1e-12);
-    EXPECT_NEAR(profiles.column("shear_rate").value[l], quotient, 1e-12);
+    EXPECT_NEAR(value_of(profiles, "v_t", l), 5 / r, 1e-12);
+    EXPECT_NEAR(value_of(profiles, "shear_rate", l), quotient, 1e-12);
     EXPECT_NEAR(quotient / (-10 / (r * r)), 1, 0.03);
   }
 }
@@ -125,10 +129,10 @@ TEST(Rings, StressesAreThoseOfTheBranches) {
     const double area = std::numbers::pi * (2 * static_cast<double>(l) + 1);
     // 1e-6: snapshots hold normals as floats. On the outer grain act 2 outwards and 0.5 along the tangent,
     // which for a normal that points outwards is the clockwise one.
-    EXPECT_NEAR(profiles.column("sigma_rr").value[l], 2 / area, 1e-6) << l;
-    EXPECT_NEAR(profiles.column("sigma_rt").value[l], -0.5 / area, 1e-6) << l;
-    EXPECT_NEAR(profiles.column("sigma_tt").value[l], 0, 1e-6) << l;
-    EXPECT_NEAR(profiles.column("mu").value[l], -0.25, 1e-6) << l;
+    EXPECT_NEAR(value_of(profiles, "sigma_rr", l), 2 / area, 1e-6) << l;
+    EXPECT_NEAR(value_of(profiles, "sigma_rt", l), -0.5 / area, 1e-6) << l;
+    EXPECT_NEAR(value_of(profiles, "sigma_tt", l), 0, 1e-6) << l;
+    EXPECT_NEAR(value_of(profiles, "mu", l), -0.25, 1e-6) << l;
   }
 }
 
@@ -164,9 +168,9 @@ TEST(Silo, UniformColumnHasTheHydrostaticStressOverItsHeight) {
   const double nu = std::numbers::pi / 4;
   for (std::size_t l = 0; l < 20; ++l) {
     EXPECT_NEAR(profiles.z[l], static_cast<double>(l) + 0.5, 1e-12);  // from the scene's z = 0
-    EXPECT_NEAR(profiles.column("nu").value[l], nu, 1e-12);
-    EXPECT_NEAR(profiles.column("sigma_zz").value[l], nu * (20 - profiles.z[l]), 1e-12);
-    EXPECT_NEAR(profiles.column("sigma_xx").value[l], 0, 1e-12);
+    EXPECT_NEAR(value_of(profiles, "nu", l), nu, 1e-12);
+    EXPECT_NEAR(value_of(profiles, "sigma_zz", l), nu * (20 - profiles.z[l]), 1e-12);
+    EXPECT_NEAR(value_of(profiles, "sigma_xx", l), 0, 1e-12);
   }
   for (const char* foreign : {"shear_rate", "I", "mu", "half_vorticity"})
     EXPECT_EQ(profiles.find(foreign), nullptr) << foreign;
@@ -189,17 +193,17 @@ TEST(Silo, WidthHasTheScenesComponents) {
   const double nu = std::numbers::pi / 4;
   for (std::size_t l = 0; l < 8; ++l) {
     EXPECT_NEAR(profiles.z[l], static_cast<double>(l) + 0.5, 1e-12);
-    EXPECT_NEAR(profiles.column("v_z").value[l], -0.1 * profiles.z[l], 1e-12);
-    EXPECT_NEAR(profiles.column("v_x").value[l], 0.05, 1e-12);
-    EXPECT_NEAR(profiles.column("nu").value[l], nu, 1e-12);
-    EXPECT_NEAR(profiles.column("sigma_zz").value[l], nu * (20 - 6), 1e-12);  // at z = 6, in the mean
+    EXPECT_NEAR(value_of(profiles, "v_z", l), -0.1 * profiles.z[l], 1e-12);
+    EXPECT_NEAR(value_of(profiles, "v_x", l), 0.05, 1e-12);
+    EXPECT_NEAR(value_of(profiles, "nu", l), nu, 1e-12);
+    EXPECT_NEAR(value_of(profiles, "sigma_zz", l), nu * (20 - 6), 1e-12);  // at z = 6, in the mean
     // Branches are upright, so that forces across them show in sigma_xz of the height alone.
-    EXPECT_NEAR(profiles.column("sigma_xx").value[l], 0, 1e-12);
+    EXPECT_NEAR(value_of(profiles, "sigma_xx", l), 0, 1e-12);
     if (l > 0 && l < 7) {
-      EXPECT_NEAR(profiles.column("d_v_z_dx").value[l], -0.1, 1e-12);
+      EXPECT_NEAR(value_of(profiles, "d_v_z_dx", l), -0.1, 1e-12);
     }
   }
-  EXPECT_NEAR(over_height.column("sigma_xz").value[5], -0.2 * nu * (20 - 5.5), 1e-12);
+  EXPECT_NEAR(value_of(over_height, "sigma_xz", 5), -0.2 * nu * (20 - 5.5), 1e-12);
   for (const char* foreign : {"shear_rate", "I", "mu", "half_vorticity", "k"})
     EXPECT_EQ(profiles.find(foreign), nullptr) << foreign;
 }
