@@ -11,7 +11,7 @@
 #include "coupling/law/memory_law.hpp"
 #include "remembering_drum.hpp"
 
-namespace drumlin {
+namespace drumlin::amount_memory {
 using namespace coupling;
 using namespace testing;
 namespace {
@@ -138,4 +138,4 @@ TEST(AmountFit, FindsNothingWhereTheAmountFollowsI) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::amount_memory

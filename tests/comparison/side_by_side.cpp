@@ -8,7 +8,7 @@
 #include "tests/comparison/example.hpp"
 #include "tests/support/says.hpp"
 
-namespace drumlin {
+namespace drumlin::side_by_side {
 using namespace coupling;
 namespace {
 
@@ -177,4 +177,4 @@ TEST(SameDrum, EachDifferenceAloneIsRefusedAndSoIsSilence) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::side_by_side

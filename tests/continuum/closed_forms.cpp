@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace drumlin {
+namespace drumlin::closed_forms {
 using namespace continuum;
 namespace {
 
@@ -119,4 +119,4 @@ TEST(AnnularCouette, ObeysTheLawAtEveryRadius) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::closed_forms

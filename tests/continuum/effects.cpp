@@ -4,7 +4,7 @@
 #include "continuum/sampling/drum_profiles.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"
 
-namespace drumlin {
+namespace drumlin::effects_test {
 using namespace continuum;
 namespace {
 
@@ -151,4 +151,4 @@ TEST(SolveAgain, FindsTheFlowOfChangedSettingsOnTheSameMesh) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::effects_test

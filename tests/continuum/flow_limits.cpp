@@ -9,7 +9,7 @@
 
 #include "continuum/fem/scene_options.hpp"
 
-namespace drumlin {
+namespace drumlin::flow_limits {
 using namespace continuum;
 namespace {
 
@@ -193,4 +193,4 @@ TEST(FlowReport, NamesNoSlopeOfRejectedSteps) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::flow_limits

@@ -12,7 +12,7 @@
 #include "coupling/common/errors.hpp"
 #include "tests/support/says.hpp"
 
-namespace drumlin {
+namespace drumlin::gap {
 using namespace continuum;
 namespace {
 
@@ -182,4 +182,4 @@ TEST(NoSteadyState, IsSaidOfAChuteWhoseWallsCannotCarryTheWeight) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::gap

@@ -4,7 +4,7 @@
 
 namespace drumlin::testing_hard_cases {
 
-INSTANTIATE_TEST_SUITE_P(Table, FastHardCase, testing::ValuesIn(fast_ones(flow_hard_cases())), test_name);
+INSTANTIATE_TEST_SUITE_P(Table, FastHardCase, ::testing::ValuesIn(fast_ones(flow_hard_cases())), test_name);
 
 TEST(FlowHardCases, HaveNamesOfTheirOwn) { expect_names_of_their_own(flow_hard_cases()); }
 

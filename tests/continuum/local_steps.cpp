@@ -8,7 +8,7 @@
 #include "continuum/fem/detail/step_length.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"
 
-namespace drumlin {
+namespace drumlin::local_steps {
 using namespace continuum;
 namespace {
 
@@ -173,4 +173,4 @@ TEST(StepLength, SaysWhetherItAskedLastForWhatItReturns) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::local_steps

@@ -4,7 +4,7 @@
 #include "continuum/sampling/drum_profiles.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"
 
-namespace drumlin {
+namespace drumlin::march {
 using namespace continuum;
 namespace {
 
@@ -77,4 +77,4 @@ TEST(March, GoesOnFromAKeptStateToTheLastBit) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::march

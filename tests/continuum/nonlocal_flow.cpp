@@ -3,7 +3,7 @@
 #include "coupling/common/errors.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"
 
-namespace drumlin {
+namespace drumlin::nonlocal_flow {
 using namespace continuum;
 namespace {
 
@@ -101,4 +101,4 @@ TEST(NonlocalFlow, IsRefusedInTime) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::nonlocal_flow

@@ -8,13 +8,13 @@
 #include "continuum/sampling/drum_profiles.hpp"
 #include "coupling/files/field_map_file.hpp"
 
-namespace drumlin {
+namespace drumlin::small_drum_test {
 using namespace continuum;
 namespace {
 
 using namespace testing_boxes;
 
-const DrumGeometry drum = small_drum();
+const DrumGeometry drum = drumlin::small_drum();
 
 TEST(SmallDrum, BalancesMassForcesTorqueAndPower) {
   const FlowField field = converged(small_drum_problem(), one_mesh());
@@ -144,4 +144,4 @@ TEST(SmallDrum, IsFoundAgainToTheLastBit) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::small_drum_test

@@ -13,7 +13,7 @@
 #include "tangent_error.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"
 
-namespace drumlin {
+namespace drumlin::threshold_fluidity {
 using namespace continuum;
 namespace {
 
@@ -328,4 +328,4 @@ TEST(ThresholdFluidity, IsRefusedInTime) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::threshold_fluidity

@@ -9,7 +9,7 @@
 #include "continuum/rheology/nonlocal_law.hpp"
 #include "continuum/rheology/spin.hpp"
 
-namespace drumlin {
+namespace drumlin::turned_law {
 using namespace continuum;
 namespace {
 
@@ -184,4 +184,4 @@ TEST(TurnOf, IsOneInSimpleShearAndNoughtInPureExtension) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::turned_law

@@ -3,7 +3,7 @@
 #include "continuum/reference/closed_forms.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"
 
-namespace drumlin {
+namespace drumlin::with_k {
 using namespace continuum;
 namespace {
 
@@ -118,4 +118,4 @@ TEST(SmallDrumWithK, IsTheSameForAnObserverThatTurns) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::with_k

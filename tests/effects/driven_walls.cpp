@@ -4,7 +4,7 @@
 #include "coupling/common/errors.hpp"
 #include "tests/effects/drums.hpp"
 
-namespace drumlin {
+namespace drumlin::driven_walls {
 using namespace particles;
 using namespace test;
 namespace {
@@ -177,4 +177,4 @@ TEST(DrivenWall, CostsNothingWhereThereIsNone) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::driven_walls

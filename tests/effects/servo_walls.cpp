@@ -3,7 +3,7 @@
 
 #include "tests/effects/drums.hpp"
 
-namespace drumlin {
+namespace drumlin::servo_walls {
 using namespace particles;
 using namespace test;
 namespace {
@@ -150,4 +150,4 @@ TEST(ThermalMotion, HasNoMomentumAndExactlyItsEnergy) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::servo_walls

@@ -3,7 +3,7 @@
 
 #include "tests/effects/drums.hpp"
 
-namespace drumlin {
+namespace drumlin::stages {
 using namespace particles;
 using namespace test;
 namespace {
@@ -182,4 +182,4 @@ TEST(Stages, AbsentChangesLeaveNoState) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::stages

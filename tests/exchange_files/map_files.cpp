@@ -11,7 +11,7 @@
 #include "coupling/files/h5_writer.hpp"
 #include "tests/exchange_files/folder.hpp"
 
-namespace drumlin {
+namespace drumlin::map_files {
 namespace {
 
 using testing::expect_same;
@@ -196,4 +196,4 @@ TEST(MapFile, EveryCutAndEveryByteChangedIsRefused) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::map_files

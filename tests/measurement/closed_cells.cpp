@@ -13,7 +13,7 @@
 #include "tests/measurement/collected_maps.hpp"
 #include "tests/measurement/packings.hpp"
 
-namespace drumlin {
+namespace drumlin::closed_cells {
 using namespace particles;
 namespace {
 
@@ -285,4 +285,4 @@ TEST(ClosedCell, MapsFollowACellWhoseLengthsChange) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::closed_cells

@@ -6,7 +6,7 @@
 #include "tests/measurement/collected_maps.hpp"
 #include "tests/measurement/packings.hpp"
 
-namespace drumlin {
+namespace drumlin::displacement_maps {
 using namespace particles;
 namespace {
 
@@ -146,4 +146,4 @@ TEST(DisplacementMaps, OneSnapshotOrOtherGrainsGiveNoFields) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::displacement_maps

@@ -6,7 +6,7 @@
 #include "particles/measurement/history/surface_history.hpp"
 #include "tests/measurement/packings.hpp"
 
-namespace drumlin {
+namespace drumlin::surfaces {
 using namespace particles;
 namespace {
 
@@ -107,4 +107,4 @@ TEST(SurfaceHistory, WhereThereIsNoneNothingIsSaid) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::surfaces

@@ -48,8 +48,8 @@ Problem random_problem(unsigned seed, std::vector<double>& r) {
 }
 
 template <class Problem>
-class BlockForm : public testing::Test {};
-using BodyProblems = testing::Types<FrictionlessProblem, CoulombProblem, CoulombSpinProblem>;
+class BlockForm : public ::testing::Test {};
+using BodyProblems = ::testing::Types<FrictionlessProblem, CoulombProblem, CoulombSpinProblem>;
 TYPED_TEST_SUITE(BlockForm, BodyProblems);
 
 TYPED_TEST(BlockForm, HasTheSameVelocitiesAndTheSameResidual) {

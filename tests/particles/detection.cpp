@@ -10,7 +10,7 @@
 #include "particles/scene/random.hpp"
 #include "tests/particles/many_grains.hpp"
 
-namespace drumlin {
+namespace drumlin::detection {
 namespace {
 
 using namespace particles;
@@ -65,7 +65,7 @@ TEST(Detection, FindsThePairsOfItsDefinitionAndNoOthers) {
   RandomStream random(11, "test");
   for (const Period& period : {Period{}, Period{-1, 27}}) {
     expect_defined(flowing(700, random), period, "flowing");
-    expect_defined(falling(700, random), period, "falling");
+    expect_defined(test::falling(700, random), period, "falling");
     expect_defined(scattered(500, random), period, "scattered");
     expect_defined(unlike(700, random), period, "unlike");
     expect_defined(packed(700, 0.02, 0, random), period, "one to fifty");
@@ -113,7 +113,7 @@ TEST(Detection, FindsTheWallsThatGrainsMayMeet) {
 
 TEST(Detection, GivesTheSameBytesForAnyNumberOfThreads) {
   RandomStream random(12, "test");
-  const Grains g = falling(6000, random);
+  const Grains g = test::falling(6000, random);
   ContactDetection alone, shared;
   ThreadTeam team(2);
   shared.use(&team);
@@ -195,19 +195,19 @@ double price(Make make, int count) {
 
 TEST(Detection, MeasuresAsManyDistancesPerGrainWhateverTheirNumber) {
   // Cells of 1.3 d hold 1.7 grains, and half of nine are looked at: some 8 per grain.
-  EXPECT_LT(price(flowing, 8000), 12);
-  EXPECT_LT(price(all_fall, 8000), 12);
-  EXPECT_LT(price(with_stray, 8000), 12);
-  EXPECT_LT(price(scattered, 8000), 6);
-  EXPECT_LT(price(unlike, 8000), 30);
-  for (const auto& [small, large] : {std::pair(price(flowing, 2000), price(flowing, 8000)),
-                                     std::pair(price(all_fall, 2000), price(all_fall, 8000)),
-                                     std::pair(price(falling, 2000), price(falling, 8000)),
-                                     std::pair(price(with_stray, 2000), price(with_stray, 8000)),
-                                     std::pair(price(scattered, 2000), price(scattered, 8000)),
-                                     std::pair(price(unlike, 2000), price(unlike, 8000))})
+  EXPECT_LT(price(test::flowing, 8000), 12);
+  EXPECT_LT(price(test::all_fall, 8000), 12);
+  EXPECT_LT(price(test::with_stray, 8000), 12);
+  EXPECT_LT(price(test::scattered, 8000), 6);
+  EXPECT_LT(price(test::unlike, 8000), 30);
+  for (const auto& [small, large] : {std::pair(price(test::flowing, 2000), price(test::flowing, 8000)),
+                                     std::pair(price(test::all_fall, 2000), price(test::all_fall, 8000)),
+                                     std::pair(price(test::falling, 2000), price(test::falling, 8000)),
+                                     std::pair(price(test::with_stray, 2000), price(test::with_stray, 8000)),
+                                     std::pair(price(test::scattered, 2000), price(test::scattered, 8000)),
+                                     std::pair(price(test::unlike, 2000), price(test::unlike, 8000))})
     EXPECT_LT(large, 1.2 * small);
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::detection

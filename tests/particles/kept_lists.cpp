@@ -8,7 +8,7 @@
 #include "particles/scene/random.hpp"
 #include "tests/particles/many_grains.hpp"
 
-namespace drumlin {
+namespace drumlin::kept_lists {
 namespace {
 
 using namespace particles;
@@ -16,7 +16,7 @@ using namespace test;
 
 constexpr double margin = 0.02;
 
-void move(Grains& g, double time_step) {
+void move(test::Grains& g, double time_step) {
   for (std::size_t b = 0; b < g.count(); ++b) {
     g.bodies.x[b] += time_step * g.v_x[b];
     g.bodies.z[b] += time_step * g.v_z[b];
@@ -39,7 +39,7 @@ void expect_same(const ContactDetection& kept, const ContactDetection& anew, std
 
 struct Case {
   const char* name;
-  Grains grains;
+  test::Grains grains;
   double time_step;
   Period period;
   bool used_again;  // whether a list ought to be
@@ -51,7 +51,7 @@ std::vector<Case> cases() {
   all.push_back({"at rest", packed(900, 1, 0, random), 0.05, {}, true});
   all.push_back({"flowing", flowing(900, random), 0.01, {}, true});
   all.push_back({"turning", packed(900, 0.8, 0.05, random), 0.05, {}, true});
-  Grains& turning = all.back().grains;
+  test::Grains& turning = all.back().grains;
   for (std::size_t b = 0; b < turning.count(); ++b) {
     turning.v_x[b] += 0.05 * turning.bodies.z[b];
     turning.v_z[b] -= 0.05 * turning.bodies.x[b];
@@ -106,14 +106,14 @@ TEST(KeptLists, AreMadeAnewForOtherGrains) {
   RandomStream random(23, "test");
   const DetectionInput input{{}, {}, 0.05, margin, {}};
   ContactDetection kept;
-  Grains g = packed(400, 0.7, 0.01, random);
+  test::Grains g = packed(400, 0.7, 0.01, random);
   for (int step = 0; step < 5; ++step) kept.find(g.bodies, g.v_x, g.v_z, input);
-  const Grains other = packed(400, 0.5, 0.3, random);
+  const test::Grains other = packed(400, 0.5, 0.3, random);
   ContactDetection anew;
   anew.find(other.bodies, other.v_x, other.v_z, input);
   kept.find(other.bodies, other.v_x, other.v_z, input);
   expect_same(kept, anew, other.count());
-  const Grains fewer = packed(100, 1, 0.3, random);
+  const test::Grains fewer = packed(100, 1, 0.3, random);
   ContactDetection again;
   again.find(fewer.bodies, fewer.v_x, fewer.v_z, input);
   kept.find(fewer.bodies, fewer.v_x, fewer.v_z, input);
@@ -121,4 +121,4 @@ TEST(KeptLists, AreMadeAnewForOtherGrains) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::kept_lists

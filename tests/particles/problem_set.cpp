@@ -25,7 +25,7 @@ std::vector<std::string> problem_names() {
   return names;
 }
 
-class ProblemSet : public testing::TestWithParam<std::string> {
+class ProblemSet : public ::testing::TestWithParam<std::string> {
  protected:
   const fs::path file = data_folder() / "problems" / (GetParam() + ".h5");
   const BlockProblem problem = read_contact_problem(file);
@@ -52,7 +52,7 @@ TEST_P(ProblemSet, TheReferenceReachesOneInTenMillion) {
   EXPECT_EQ(solved_by("reference", problem, 1e-7, 8000).report.status, Status::converged);
 }
 
-INSTANTIATE_TEST_SUITE_P(Public, ProblemSet, testing::ValuesIn(problem_names()), [](const auto& test) {
+INSTANTIATE_TEST_SUITE_P(Public, ProblemSet, ::testing::ValuesIn(problem_names()), [](const auto& test) {
   std::string name = test.param;  // letters and underscores only
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';

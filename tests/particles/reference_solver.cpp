@@ -11,7 +11,7 @@
 #include "particles/lab/sparse_lu.hpp"
 #include "tests/particles/solving.hpp"
 
-namespace drumlin {
+namespace drumlin::reference_solver {
 using namespace particles;
 using namespace test;
 namespace {
@@ -59,8 +59,8 @@ Problem crystal(int wide, int high, double mu, double mass_ratio = 1) {
 }
 
 template <class Problem>
-class Response : public testing::Test {};
-using AllProblems = testing::Types<FrictionlessProblem, CoulombProblem, CoulombSpinProblem>;
+class Response : public ::testing::Test {};
+using AllProblems = ::testing::Types<FrictionlessProblem, CoulombProblem, CoulombSpinProblem>;
 TYPED_TEST_SUITE(Response, AllProblems);
 
 /// y - (1 + D W) x, largest entry.
@@ -235,4 +235,4 @@ TEST(DiscProblem, IsNotFoundWhereThereIsNone) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::reference_solver

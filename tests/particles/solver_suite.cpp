@@ -17,7 +17,7 @@ namespace {
 
 constexpr double g_h = 0.05;  // velocity that gravity gives in a step
 
-class Solver : public testing::TestWithParam<std::string> {
+class Solver : public ::testing::TestWithParam<std::string> {
  protected:
   template <class Problem>
   std::vector<double> solved(const Problem& problem, double tolerance = 1e-10) const {
@@ -162,7 +162,7 @@ TEST_P(Solver, AWorkspaceCarriesNothingFromOneProblemToTheNext) {
   EXPECT_EQ(with_used.velocities.contacts, with_fresh.velocities.contacts);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Solver, testing::ValuesIn(any_solver_names()), [](const auto& test) {
+INSTANTIATE_TEST_SUITE_P(Every, Solver, ::testing::ValuesIn(any_solver_names()), [](const auto& test) {
   std::string name = test.param;  // letters and underscores only
   std::replace(name.begin(), name.end(), '-', '_');
   return name;

@@ -18,7 +18,7 @@ inline void PrintTo(const HardCase& hard, std::ostream* out) { *out << hard.name
 
 namespace testing_hard_cases {
 
-class FastHardCase : public testing::TestWithParam<HardCase> {};
+class FastHardCase : public ::testing::TestWithParam<HardCase> {};
 
 TEST_P(FastHardCase, HasItsKnownOutcome) {
   const HardResult result = run_hard_case(GetParam());
@@ -35,7 +35,7 @@ inline std::vector<HardCase> fast_ones(const std::vector<HardCase>& cases) {
   return fast;
 }
 
-inline std::string test_name(const testing::TestParamInfo<HardCase>& instance) {
+inline std::string test_name(const ::testing::TestParamInfo<HardCase>& instance) {
   std::string name = instance.param.name;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
