@@ -7,7 +7,8 @@
 
 namespace drumlin::testing_hard_cases {
 
-INSTANTIATE_TEST_SUITE_P(Table, FastHardCase, ::testing::ValuesIn(fast_ones(particle_hard_cases())), test_name);
+INSTANTIATE_TEST_SUITE_P(Table, FastHardCase, ::testing::ValuesIn(fast_ones(particle_hard_cases())),
+                         test_name);
 
 namespace {
 
