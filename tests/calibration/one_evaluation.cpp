@@ -13,7 +13,7 @@
 #include "shear_layer.hpp"
 #include "tests/exchange_files/folder.hpp"
 
-namespace drumlin {
+namespace drumlin::one_evaluation_test {
 using namespace continuum;
 using namespace coupling;
 namespace {
@@ -176,4 +176,4 @@ TEST(SignOfK, SurvivesNoise) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::one_evaluation_test

@@ -10,7 +10,7 @@
 #include "coupling/common/errors.hpp"
 #include "coupling/law/ill_posed.hpp"
 
-namespace drumlin {
+namespace drumlin::robust_law {
 using namespace coupling;
 namespace {
 
@@ -152,4 +152,4 @@ TEST(RobustLaw, NeedsMorePointsThanCoefficients) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::robust_law

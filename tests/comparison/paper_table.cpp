@@ -5,7 +5,7 @@
 #include "tests/comparison/example.hpp"
 #include "tests/support/data_folder.hpp"
 
-namespace drumlin {
+namespace drumlin::paper_table_test {
 using namespace coupling;
 namespace {
 
@@ -82,4 +82,4 @@ TEST(PaperTable, EveryMeasuredNumberOfThePaperHasAnAcceptedDifference) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::paper_table_test

@@ -11,7 +11,7 @@
 #include "tests/support/data_folder.hpp"
 #include "tests/support/says.hpp"
 
-namespace drumlin {
+namespace drumlin::drum_test {
 using namespace continuum;
 namespace {
 
@@ -172,4 +172,4 @@ TEST(NoSteadyState, IsSaidOfASlopeThatTheLawCannotCarry) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::drum_test

@@ -10,7 +10,7 @@
 #include "tests/support/data_folder.hpp"
 #include "tests/support/says.hpp"
 
-namespace drumlin {
+namespace drumlin::flow_scene_test {
 using namespace continuum;
 namespace {
 
@@ -181,4 +181,4 @@ TEST(FlowScene, DocumentationHoldsEveryKey) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::flow_scene_test

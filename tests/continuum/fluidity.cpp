@@ -8,7 +8,7 @@
 
 #include "given_flow.hpp"
 
-namespace drumlin {
+namespace drumlin::fluidity_test {
 using namespace continuum;
 namespace {
 
@@ -88,4 +88,4 @@ TEST(NonlocalFluidity, StaysPositiveAndBoundedOverEightDecades) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::fluidity_test

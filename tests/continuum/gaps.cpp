@@ -3,7 +3,7 @@
 #include "continuum/sampling/gap_profiles.hpp"
 #include "gap_flows.hpp"
 
-namespace drumlin {
+namespace drumlin::gaps_test {
 using namespace continuum;
 namespace {
 
@@ -99,4 +99,4 @@ TEST(AnnulusFlow, ConvergesToItsSolutionWithTheOrderOfQ2) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::gaps_test

@@ -4,7 +4,7 @@
 #include "tests/hardcases/continuum/small_drum.hpp"
 #include "tests/support/says.hpp"
 
-namespace drumlin {
+namespace drumlin::surface_test {
 using namespace continuum;
 namespace {
 
@@ -126,4 +126,4 @@ TEST(MovingSurface, StartsWhereThatOfANeighbourIs) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::surface_test

@@ -8,7 +8,7 @@
 #include "particles/stepping/run_through.hpp"
 #include "tests/effects/drums.hpp"
 
-namespace drumlin {
+namespace drumlin::cells_test {
 using namespace particles;
 using namespace test;
 namespace {
@@ -346,4 +346,4 @@ TEST(Cell, AbsentItIsNoState) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::cells_test

@@ -11,7 +11,7 @@
 #include "tests/exchange_files/folder.hpp"
 #include "tests/support/headers.hpp"
 
-namespace drumlin {
+namespace drumlin::run_headers_test {
 namespace {
 
 using testing::header_from;
@@ -140,4 +140,4 @@ TEST(NumberText, IsReadWholeOrRefusedWithItsPlace) {
 }
 
 }  // namespace
-}  // namespace drumlin
+}  // namespace drumlin::run_headers_test

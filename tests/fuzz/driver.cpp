@@ -37,13 +37,13 @@ void say_which(int signal) {
 }
 
 std::vector<std::string> files_in(const std::vector<std::string>& folders) {
-  std::vector<std::filesystem::path> names;
+  std::vector<std::filesystem::path> files;
   for (const std::string& folder : folders)
     for (const auto& entry : std::filesystem::directory_iterator(folder))
-      if (entry.is_regular_file()) names.push_back(entry.path());
-  std::sort(names.begin(), names.end());
+      if (entry.is_regular_file()) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
   std::vector<std::string> texts;
-  for (const auto& name : names) {
+  for (const auto& name : files) {
     std::ifstream stream(name, std::ios::binary);
     texts.emplace_back(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
   }

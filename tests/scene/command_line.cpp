@@ -54,7 +54,7 @@ TEST(CommandLine, PrintsACompletionWithoutACommand) {
   const auto script = std::get<TextToShow>(parsed({"--completion", "bash"})).text;
   expect_has(script, "complete -o default -F _drumlin drumlin");
   expect_has(script, "--player");
-  EXPECT_THROW(parsed({"--completion", "fish"}), InputError);
+  EXPECT_THROW(parsed({"--completion", "tcsh"}), InputError);
 }
 
 TEST(CommandLine, FillsTheOptionsOfEveryOtherCommand) {

@@ -2,7 +2,7 @@
 #include "tests/scene/every_key_cases.hpp"
 #include "tests/support/scene_text.hpp"
 
-namespace drumlin::testing::every_key_cell {
+namespace drumlin::testing {
 using namespace particles;
 namespace {
 
@@ -50,4 +50,4 @@ std::vector<Case> cases_of_cell() {
   };
 }
 
-}  // namespace drumlin::testing::every_key_cell
+}  // namespace drumlin::testing

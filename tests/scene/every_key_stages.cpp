@@ -1,7 +1,7 @@
 // Cases for the keys of what stages change and of servo walls.
 #include "tests/scene/every_key_cases.hpp"
 
-namespace drumlin::testing::every_key_stages {
+namespace drumlin::testing {
 using namespace particles;
 namespace {
 
@@ -170,4 +170,4 @@ std::vector<Case> cases_of_stage_changes() {
   };
 }
 
-}  // namespace drumlin::testing::every_key_stages
+}  // namespace drumlin::testing
