@@ -28,7 +28,7 @@ class Build(build_py):
     def run(self):
         build = pathlib.Path(os.environ.get("DRUMLIN_BUILD", SOURCES / "build-wheel" / "cmake"))
         if "DRUMLIN_BUILD" not in os.environ:
-            cmake("-S", SOURCES, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON", "-DDRUMLIN_CONTINUUM=OFF",
+            cmake("-S", SOURCES, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DDRUMLIN_CONTINUUM=OFF",
                   f"-DDRUMLIN_PYTHON={sys.executable}")
             cmake("--build", build, "--target", "drumlin", "drumlin_python")
         installed = pathlib.Path(self.build_lib).resolve().parent / "installed"

@@ -86,6 +86,7 @@ void add_measure_options(CLI::App& command, MeasureOptions& options, StudyOption
                   "Profiles over the width as well, within a band of z in d: a silo at one height")
       ->delimiter(',')
       ->type_name("Z0,Z1");
+  command.add_flag("--verbose", options.verbose, "Prints every number, not the main ones alone");
   add_accuracy(command, options.accuracy);
   add_existing(command, options.existing, keep_what_is_done);
 }

@@ -55,6 +55,7 @@ struct MeasureOptions {
   std::string grains;  ///< snapshots whose grains get their fields written, a list as in export; empty: none
   std::optional<std::filesystem::path>
       accuracy;  ///< COST of the scene; absent: a shipped record, if there is one
+  bool verbose = false;  ///< prints every number
   ExistingOutput existing = ExistingOutput::refuse;
 };
 int measure(const MeasureOptions&);

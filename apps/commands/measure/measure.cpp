@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string_view>
 
 #include "apps/commands/accuracy_statement.hpp"
 #include "apps/commands/measure/content.hpp"
@@ -39,6 +42,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr double too_wide = 0.1;  // half width of a change of energy that tells nothing
+// Printed without --verbose.
+constexpr std::array<std::string_view, 6> drum_numbers{"theta_deg", "Q",          "H",
+                                                       "lambda",    "shear_rate", "nu_bulk"};
 constexpr double narrow_slice_width = 2;  // d, as the paper's five slices
 
 std::string trimmed(std::string text) {
@@ -201,6 +208,8 @@ void print_steadiness(const particles::Steadiness& steadiness) {
     print_out(fmt::format("{}pressure {:+.1f} +- {:.1f} %", ", ", 100 * steadiness.pressure.value,
                           100 * steadiness.pressure.ci99));
   print_out(fmt::format("; judged by {}\n", steadiness.judged_by));
+  if (steadiness.energy.ci99 > too_wide)
+    print_out("  the change of energy is too uncertain to tell: sample longer, or more snapshots\n");
 }
 
 void print_scattered(const particles::Measurement& measured) {
@@ -327,20 +336,32 @@ void print_unmeasured(const particles::MeasurementFrame& place, const ScalarSet&
                           of_a_drum, place.period > 0 ? "layers" : "an open packing"));
 }
 
+/// The numbers that say most of a run, at most six: those of a drum, else the first.
+std::vector<Scalar> main_numbers(const ScalarSet& scalars) {
+  std::vector<Scalar> drum, first;
+  for (const Scalar& scalar : scalars.scalars) {
+    if (!std::isfinite(scalar.value)) continue;
+    if (std::ranges::find(drum_numbers, scalar.name) != drum_numbers.end()) drum.push_back(scalar);
+    if (first.size() < drum_numbers.size()) first.push_back(scalar);
+  }
+  return drum.size() > 1 ? drum : first;
+}
+
 void print_results(const Request& request, const fs::path& folder, const particles::Measurement& measured,
-                   const ScalarSet& scalars) {
+                   const ScalarSet& scalars, bool verbose) {
   print_out(fmt::format("{}{}\n", folder.string(), request.reduced ? " (reduced)" : ""));
   if (request.settings.sensitivity)
     print_out(fmt::format("  {:32} {:>12} {:12} {}\n", "", "value", "99 %",
-                          "by other windows (measured.json has all)"));
-  for (const Scalar& scalar : scalars.scalars)
+                          verbose ? "by other windows (measured.json has all)"
+                                  : "by other windows (--verbose prints all, measured.json has them)"));
+  for (const Scalar& scalar : verbose ? scalars.scalars : main_numbers(scalars))
     if (std::isfinite(scalar.value))
       print_scalar(scalar, particles::sensitivity_of(scalar, measured.variants));
   print_unmeasured(measured.place, scalars);
   print_scattered(measured);
   print_steadiness(measured.steadiness);
   for (const Part& part : request.parts)
-    if (part.print) part.print();
+    if (part.print && verbose) part.print();
 }
 
 /// Of the files that are there now.
@@ -396,8 +417,10 @@ int measure(const MeasureOptions& options) {
   const std::vector<std::string> failures = draw_pending_figures(folder, figures_of(request, folder));
   output.publish();
 
-  print_results(request, results, measured, scalars);
+  print_results(request, results, measured, scalars, options.verbose);
   print_accuracy(request, statement, scalars);
+  print_out(fmt::format("next: drumlin calibrate {} -o rheology.toml, or drumlin report {}\n",
+                        options.run.string(), options.run.string()));
   throw_if_figures_failed(finished, failures);
   return static_cast<int>(ExitCode::done);
 }
