@@ -60,34 +60,16 @@ TEST(FlowScene, HasTheEffectsThatItNames) {
   EXPECT_EQ(creeping.amplitude, 0.5);
   EXPECT_EQ(creeping.threshold, 0.26);
   EXPECT_FALSE(creeping.length);
-  expect_has(refusal(smallest + "[effects.nonlocal]
-length = 1
-amplitude = 0.5
-", {}),
+  expect_has(refusal(smallest + "[effects.nonlocal]\nlength = 1\namplitude = 0.5\n", {}),
              "effects.nonlocal.amplitude");
-  const std::string slip = smallest + "[effects.given_slip]
-angle_deg = [-60, 0]
-";
-  EXPECT_EQ(parse_flow_scene(slip + "share = [0.05, 0]
-", "test").effects.given_slip->share[0], 0.05);
-  for (const char* refused : {
-    "share = [0.05]
-    ", " share = [ 0.05, 2 ] "})
-        expect_has(refusal(slip + refused), "effects.given_slip.share");
-  expect_has(refusal(slip + "share = [0, 0]
-[effects.wall_slip]
-friction = 1
-"), "effects.wall_slip");
-  const std::string line = smallest + "[effects.held_line]
-z = [-9, -9]
-v_x = [1, 1]
-";
-  expect_has(refusal(line + "x = [2, 2]
-shear_rate = [0, 0]
-"), "effects.held_line.x");
-  expect_has(refusal(line + "x = [1, 2]
-shear_rate = [0]
-"), "held_line.shear_rate");
+  const std::string slip = smallest + "[effects.given_slip]\nangle_deg = [-60, 0]\n";
+  EXPECT_EQ(parse_flow_scene(slip + "share = [0.05, 0]\n", "test").effects.given_slip->share[0], 0.05);
+  for (const char* refused : {"share = [0.05]\n", "share = [0.05, 2]\n"})
+    expect_has(refusal(slip + refused), "effects.given_slip.share");
+  expect_has(refusal(slip + "share = [0, 0]\n[effects.wall_slip]\nfriction = 1\n"), "effects.wall_slip");
+  const std::string line = smallest + "[effects.held_line]\nz = [-9, -9]\nv_x = [1, 1]\n";
+  expect_has(refusal(line + "x = [2, 2]\nshear_rate = [0, 0]\n"), "effects.held_line.x");
+  expect_has(refusal(line + "x = [1, 2]\nshear_rate = [0]\n"), "held_line.shear_rate");
   EXPECT_FALSE(scene.effects.moving_surface);
   EXPECT_EQ(parse_flow_scene(smallest + "[effects.moving_surface]\ndegree = 12\n", "test")
                 .effects.moving_surface.value()
@@ -98,33 +80,33 @@ shear_rate = [0]
 }
 
 TEST(FlowScene, ReportsEveryProblemAtOnce) {
-    try {
-      parse_flow_scene(smallest + "[mesh]\nlevels = 0\nsurface_cel = 1\n", "test", {"drum.rotation_rpm=-3"});
-      FAIL() << "accepted";
-    } catch (const InputError& error) {
-      ASSERT_EQ(error.problems().size(), 3u) << error.what();
-      for (const auto& problem : error.problems()) EXPECT_FALSE(problem.what.empty());
-    }
+  try {
+    parse_flow_scene(smallest + "[mesh]\nlevels = 0\nsurface_cel = 1\n", "test", {"drum.rotation_rpm=-3"});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.problems().size(), 3u) << error.what();
+    for (const auto& problem : error.problems()) EXPECT_FALSE(problem.what.empty());
+  }
 }
 
 TEST(FlowScene, RefusesDiametersInTheWrongOrder) {
-    EXPECT_THROW(parse_flow_scene(smallest, "test", {"grains.diameter_max_mm=2"}), InputError);
-    EXPECT_THROW(parse_flow_scene(smallest, "test", {"drum.diameter_mm=3.2"}), InputError);
+  EXPECT_THROW(parse_flow_scene(smallest, "test", {"grains.diameter_max_mm=2"}), InputError);
+  EXPECT_THROW(parse_flow_scene(smallest, "test", {"drum.diameter_mm=3.2"}), InputError);
 }
 
 TEST(FlowScene, MarchesOnlyWhereItSaysHow) {
-    EXPECT_FALSE(parse_flow_scene(smallest, "test").time);
-    const std::string march = smallest + "[time]\nstep_s = 0.1\nsteps = 20\n";
-    const FlowScene scene = parse_flow_scene(march + "ramp_s = 2\n", "test");
-    EXPECT_EQ(scene.time.value().steps, 20);
-    EXPECT_EQ(flow_scene_text(parse_flow_scene(flow_scene_text(scene), "again")), flow_scene_text(scene));
-    EXPECT_THROW(parse_flow_scene(march + "ramp_s = 2.1\n", "test"), InputError);  // longer than the march
-    EXPECT_THROW(parse_flow_scene(march + "[effects.rotating_frame]\n", "test"), InputError);
-    EXPECT_THROW(parse_flow_scene(smallest + "[time]\nsteps = 20\n", "test"), InputError);
-    EXPECT_THROW(parse_flow_scene(march + "[effects.memory]\n", "test"), InputError);
-    EXPECT_TRUE(parse_flow_scene(smallest + "[effects.memory]\n", "test").effects.memory);
-    EXPECT_FALSE(parse_flow_scene(smallest, "test").effects.memory);
-    EXPECT_THROW(parse_flow_scene(march + "[effects.nonlocal]\nlength = 2\n", "test"), InputError);
+  EXPECT_FALSE(parse_flow_scene(smallest, "test").time);
+  const std::string march = smallest + "[time]\nstep_s = 0.1\nsteps = 20\n";
+  const FlowScene scene = parse_flow_scene(march + "ramp_s = 2\n", "test");
+  EXPECT_EQ(scene.time.value().steps, 20);
+  EXPECT_EQ(flow_scene_text(parse_flow_scene(flow_scene_text(scene), "again")), flow_scene_text(scene));
+  EXPECT_THROW(parse_flow_scene(march + "ramp_s = 2.1\n", "test"), InputError);  // longer than the march
+  EXPECT_THROW(parse_flow_scene(march + "[effects.rotating_frame]\n", "test"), InputError);
+  EXPECT_THROW(parse_flow_scene(smallest + "[time]\nsteps = 20\n", "test"), InputError);
+  EXPECT_THROW(parse_flow_scene(march + "[effects.memory]\n", "test"), InputError);
+  EXPECT_TRUE(parse_flow_scene(smallest + "[effects.memory]\n", "test").effects.memory);
+  EXPECT_FALSE(parse_flow_scene(smallest, "test").effects.memory);
+  EXPECT_THROW(parse_flow_scene(march + "[effects.nonlocal]\nlength = 2\n", "test"), InputError);
 }
 
 const std::string grains = R"([grains]
@@ -134,76 +116,76 @@ density_kg_m3 = 2700
 )";
 
 std::string scene_with(const std::string& table) {
-    return "format = \"drumlin-flow-scene-1\"\n" + table + "\n" + grains;
+  return "format = \"drumlin-flow-scene-1\"\n" + table + "\n" + grains;
 }
 
 TEST(FlowScene, TakesOneOfFiveGeometries) {
-    const std::vector<std::string> tables = {
-        "[incline]\nheight_mm = 66\nslope_deg = 18.5",
-        "[plane_shear]\ngap_mm = 66\nwall_speed_mm_s = 72\npressure_pa = 350",
-        "[chute]\nhalf_width_mm = 33\npressure_pa = 2400",
-        "[annulus]\ninner_radius_mm = 66\nouter_radius_mm = 132\nrotation_rpm = 13\npressure_pa = 350"};
-    for (std::size_t k = 0; k < tables.size(); ++k) {
-      const FlowScene scene = parse_flow_scene(scene_with(tables[k]), "test");
-      EXPECT_EQ(scene.geometry.index(), k + 1) << tables[k];  // the drum is the first
-      const std::string text = flow_scene_text(scene);
-      EXPECT_EQ(flow_scene_text(parse_flow_scene(text, "again")), text);
-      expect_lacks(text, "[boundary]");
-    }
-    expect_has(refusal(scene_with("")), "one table of drum, incline, plane_shear, chute, annulus");
-    expect_has(refusal(scene_with(tables[0] + "\n" + tables[2])), "excludes");
+  const std::vector<std::string> tables = {
+      "[incline]\nheight_mm = 66\nslope_deg = 18.5",
+      "[plane_shear]\ngap_mm = 66\nwall_speed_mm_s = 72\npressure_pa = 350",
+      "[chute]\nhalf_width_mm = 33\npressure_pa = 2400",
+      "[annulus]\ninner_radius_mm = 66\nouter_radius_mm = 132\nrotation_rpm = 13\npressure_pa = 350"};
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    const FlowScene scene = parse_flow_scene(scene_with(tables[k]), "test");
+    EXPECT_EQ(scene.geometry.index(), k + 1) << tables[k];  // the drum is the first
+    const std::string text = flow_scene_text(scene);
+    EXPECT_EQ(flow_scene_text(parse_flow_scene(text, "again")), text);
+    expect_lacks(text, "[boundary]");
+  }
+  expect_has(refusal(scene_with("")), "one table of drum, incline, plane_shear, chute, annulus");
+  expect_has(refusal(scene_with(tables[0] + "\n" + tables[2])), "excludes");
 }
 
 TEST(FlowScene, RefusesWhatMeansNothingInItsGeometry) {
-    const std::string chute = scene_with("[chute]\nhalf_width_mm = 33\npressure_pa = 2400");
-    for (const std::string key : {"grains.count=3", "boundary.corner_taper=3", "output.slice_width=3"}) {
-      const std::string said = refusal(chute, {key});
-      expect_has(said, key.substr(0, key.find_first_of(".=")));
-      expect_has(said, "belongs to a drum");
-    }
-    expect_has(refusal(scene_with("[drum]\ndiameter_mm = 150\nrotation_rpm = 15")), "grains.count");
-    expect_has(
-        refusal(scene_with(
-            "[annulus]\ninner_radius_mm = 66\nouter_radius_mm = 60\nrotation_rpm = 13\npressure_pa = 350")),
-        "outer_radius_mm");
+  const std::string chute = scene_with("[chute]\nhalf_width_mm = 33\npressure_pa = 2400");
+  for (const std::string key : {"grains.count=3", "boundary.corner_taper=3", "output.slice_width=3"}) {
+    const std::string said = refusal(chute, {key});
+    expect_has(said, key.substr(0, key.find_first_of(".=")));
+    expect_has(said, "belongs to a drum");
+  }
+  expect_has(refusal(scene_with("[drum]\ndiameter_mm = 150\nrotation_rpm = 15")), "grains.count");
+  expect_has(
+      refusal(scene_with(
+          "[annulus]\ninner_radius_mm = 66\nouter_radius_mm = 60\nrotation_rpm = 13\npressure_pa = 350")),
+      "outer_radius_mm");
 }
 
 TEST(FlowScene, FillsInWhatADrumHasByDefault) {
-    const FlowScene scene = parse_flow_scene(smallest, "test");
-    EXPECT_EQ(scene.boundary.value().corner_taper, 4);
-    EXPECT_EQ(scene.output.slice_width.value(), 20);
-    EXPECT_FALSE(std::get<FlowDrum>(scene.geometry).slope_deg);
+  const FlowScene scene = parse_flow_scene(smallest, "test");
+  EXPECT_EQ(scene.boundary.value().corner_taper, 4);
+  EXPECT_EQ(scene.output.slice_width.value(), 20);
+  EXPECT_FALSE(std::get<FlowDrum>(scene.geometry).slope_deg);
 }
 
 TEST(FlowScene, ListsEveryKeyOnceWithASentence) {
-    std::set<std::string> paths;
-    for (const KeyRow& row : flow_scene_keys()) {
-      EXPECT_FALSE(row.sentence.empty()) << row.path;
-      EXPECT_TRUE(paths.insert(row.path).second) << row.path;
-    }
-    for (const char* path :
-         {"drum.diameter_mm", "grains.count", "mesh.levels", "regularisation.pressure", "output.slice_width"})
-      EXPECT_TRUE(paths.contains(path)) << path;
+  std::set<std::string> paths;
+  for (const KeyRow& row : flow_scene_keys()) {
+    EXPECT_FALSE(row.sentence.empty()) << row.path;
+    EXPECT_TRUE(paths.insert(row.path).second) << row.path;
+  }
+  for (const char* path :
+       {"drum.diameter_mm", "grains.count", "mesh.levels", "regularisation.pressure", "output.slice_width"})
+    EXPECT_TRUE(paths.contains(path)) << path;
 }
 
 TEST(FlowScene, ShippedScenesAreRead) {
-    const FlowScene full = read_flow_scene(drumlin::test::data_folder() / "scenes/drum-6rpm-flow.toml");
-    EXPECT_EQ(full.grains.count, 7183);
-    EXPECT_FALSE(full.reduced);
-    const FlowScene smoke = read_flow_scene(drumlin::test::data_folder() / "scenes/drum-smoke-flow.toml");
-    EXPECT_EQ(smoke.grains.count, 798);
-    EXPECT_TRUE(smoke.reduced);
-    for (const char* name : {"incline", "plane-shear", "chute", "annulus"})
-      EXPECT_NO_THROW(
-          read_flow_scene(drumlin::test::data_folder() / "scenes" / (std::string(name) + "-flow.toml")))
-          << name;
+  const FlowScene full = read_flow_scene(drumlin::test::data_folder() / "scenes/drum-6rpm-flow.toml");
+  EXPECT_EQ(full.grains.count, 7183);
+  EXPECT_FALSE(full.reduced);
+  const FlowScene smoke = read_flow_scene(drumlin::test::data_folder() / "scenes/drum-smoke-flow.toml");
+  EXPECT_EQ(smoke.grains.count, 798);
+  EXPECT_TRUE(smoke.reduced);
+  for (const char* name : {"incline", "plane-shear", "chute", "annulus"})
+    EXPECT_NO_THROW(
+        read_flow_scene(drumlin::test::data_folder() / "scenes" / (std::string(name) + "-flow.toml")))
+        << name;
 }
 
 TEST(FlowScene, DocumentationHoldsEveryKey) {
-    std::ifstream stream(drumlin::test::docs_folder() / "formats/flow.md");
-    std::stringstream text;
-    text << stream.rdbuf();
-    expect_has(text.str(), keys_as_markdown(flow_scene_keys()));
+  std::ifstream stream(drumlin::test::docs_folder() / "formats/flow.md");
+  std::stringstream text;
+  text << stream.rdbuf();
+  expect_has(text.str(), keys_as_markdown(flow_scene_keys()));
 }
 
 }  // namespace
