@@ -161,6 +161,21 @@ void add_inertia(const FlowProblem& problem, const InertiaSetting& inertia, cons
   if (matrix) add_inertia_tangent(s, q, at, density, per_time, JxW, *matrix);
 }
 
+// Takes what holds the velocity along x off the force.
+void add_hold(const FlowProblem& problem, const CellShapes& s, unsigned int q, const dealii::Point<2>& x,
+              double JxW, const dealii::Vector<double>& local, Vec2& force,
+              dealii::FullMatrix<double>* matrix) {
+  const Hold hold = problem.held({x[0], x[1]});
+  if (hold.stiffness == 0) return;
+  const double u = point_motion(s, q, local).u[0] + frame_velocity_at(problem, x).x;
+  force.x -= hold.stiffness * (u - hold.velocity);
+  if (!matrix) return;
+  const auto along = [&](unsigned int i) { return s.component[i] == 0 ? s.value[q * s.n + i] : 0; };
+  for (unsigned int i = 0; i < s.n; ++i)
+    if (along(i) != 0)
+      for (unsigned int j = 0; j < s.n; ++j) (*matrix)(i, j) += hold.stiffness * along(i) * along(j) * JxW;
+}
+
 /// What one cell after the other adds to the residual and to the tangent, in its own numbering.
 template <class PointLaw>
 class CellSystem {
@@ -213,6 +228,8 @@ class CellSystem {
     if (setting_.inertia)
       add_inertia(problem_, *setting_.inertia, shapes_, q, fe_.quadrature_point(q), fe_.JxW(q), local_,
                   before_, force, tangent);
+    if (problem_.held)
+      add_hold(problem_, shapes_, q, fe_.quadrature_point(q), fe_.JxW(q), local_, force, tangent);
     add_point_residual(shapes_, q, at, response.stress, force, fe_.JxW(q), contribution.residual);
     if (tangent) add_point_tangent(shapes_, q, response, fe_.JxW(q), *tangent);
     if constexpr (requires { response.balance; }) {

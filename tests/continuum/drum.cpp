@@ -92,12 +92,46 @@ TEST(DrumProblem, HoldsAllThatTheSceneAndTheLawName) {
   EXPECT_EQ(wall.slip_speed, 2e-4);
 }
 
+TEST(DrumProblem, WallAndLineAreHeldAsTheirTablesSay) {
+  FlowScene scene = paper_scene();
+  scene.effects = {};
+  scene.effects.given_slip = FlowGivenSlip{.angle_deg = {-60, 0}, .share = {0.05, 0.01}};
+  scene.effects.held_line = FlowHeldLine{.x = {-10, 10},
+                                         .z = {-20, -22},
+                                         .v_x = {0.1, 0.3},
+                                         .shear_rate = {0.04, 0.04},
+                                         .half_width = 2,
+                                         .stiffness = 8};
+  scene.effects.moving_surface = FlowMovingSurface{};
+  const FlowProblem problem = drum_problem(scene, paper_law());
+  const DrumGeometry drum = drum_geometry(scene, 0.82);
+  const auto& wall = std::get<PrescribedVelocity>(problem.boundary.at(Side::bottom)).velocity;
+  const double ends = drum.half_chord();
+  for (const auto& [angle, share] : {std::pair{-90.0, 0.05}, {-30.0, 0.03}, {0.0, 0.01}, {50.0, 0.01}}) {
+    const double phi = angle * std::numbers::pi / 180;
+    const Vec2 at{drum.radius * std::sin(phi), drum.axis_offset - drum.radius * std::cos(phi)};
+    const double speed = drum.rotation * drum.radius * (1 - share);
+    if (angle > -80) {
+      EXPECT_NEAR(std::hypot(wall(at).x, wall(at).z), speed, 1e-12) << angle;
+    }
+    const Vec2 moving = problem.moving_surface->wall_velocity(at, {-ends, 50}, {ends, 50});
+    EXPECT_NEAR(std::hypot(moving.x, moving.z), speed, 1e-12) << angle;
+  }
+  // In the middle, 1 d above the line at z = -21: a quarter of the way to where nothing holds, squared.
+  const Hold hold = problem.held({0, drum.axis_offset - 20});
+  EXPECT_NEAR(hold.stiffness, 8 * 0.75, 1e-12);
+  EXPECT_NEAR(hold.velocity, -20 * drum.rotation + 0.2 + 0.04, 1e-12);
+  EXPECT_EQ(problem.held({0, drum.axis_offset - 18.9}).stiffness, 0);
+  EXPECT_EQ(problem.held({11, drum.axis_offset - 22}).stiffness, 0);
+}
+
 TEST(DrumProblem, HoldsNoEffectThatNobodyNames) {
   FlowScene scene = paper_scene();
   scene.effects = {};
   const FlowProblem problem = drum_problem(scene, paper_law());
   EXPECT_FALSE(problem.turned || problem.nonlocal || problem.threshold_fluidity || problem.memory ||
-               problem.inertia || problem.frame || problem.moving_surface || problem.extra_force);
+               problem.inertia || problem.frame || problem.moving_surface || problem.extra_force ||
+               problem.held);
 }
 
 TEST(DrumProblem, RefusesEffectsThatTheLawDoesNotAllow) {

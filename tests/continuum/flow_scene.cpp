@@ -62,6 +62,16 @@ TEST(FlowScene, HasTheEffectsThatItNames) {
   EXPECT_NE(refusal(smallest + "[effects.nonlocal]\nlength = 1\namplitude = 0.5\n", {})
                 .find("effects.nonlocal.amplitude"),
             std::string::npos);
+  const std::string slip = smallest + "[effects.given_slip]\nangle_deg = [-60, 0]\n";
+  EXPECT_EQ(parse_flow_scene(slip + "share = [0.05, 0]\n", "test").effects.given_slip->share[0], 0.05);
+  for (const char* refused : {"share = [0.05]\n", "share = [0.05, 2]\n"})
+    EXPECT_NE(refusal(slip + refused).find("effects.given_slip.share"), std::string::npos) << refused;
+  EXPECT_NE(refusal(slip + "share = [0, 0]\n[effects.wall_slip]\nfriction = 1\n").find("effects.wall_slip"),
+            std::string::npos);
+  const std::string line = smallest + "[effects.held_line]\nz = [-9, -9]\nv_x = [1, 1]\n";
+  EXPECT_NE(refusal(line + "x = [2, 2]\nshear_rate = [0, 0]\n").find("effects.held_line.x"),
+            std::string::npos);
+  EXPECT_NE(refusal(line + "x = [1, 2]\nshear_rate = [0]\n").find("held_line.shear_rate"), std::string::npos);
   EXPECT_FALSE(scene.effects.moving_surface);
   EXPECT_EQ(parse_flow_scene(smallest + "[effects.moving_surface]\ndegree = 12\n", "test")
                 .effects.moving_surface.value()
