@@ -68,6 +68,8 @@ TEST(DrumProblem, HoldsAllThatTheSceneAndTheLawName) {
   scene.effects = FlowEffects{.inertia = FlowInertia{},
                               .rotating_frame = FlowRotatingFrame{},
                               .wall_slip = FlowWallSlip{.friction = 0.4, .slip_speed = 2e-4},
+                              .given_slip = {},
+                              .held_line = {},
                               .memory = {},
                               .nonlocal = FlowNonlocal{.length = 1.5},
                               .moving_surface = FlowMovingSurface{.degree = 12, .tolerance = 0.02}};
