@@ -2,6 +2,7 @@
 // Files that the programs use and do not hold: found from the place of the running program, in a build tree
 // as where it is installed, so that an installed tree may be moved.
 #include <filesystem>
+#include <string>
 
 namespace drumlin::apps {
 
