@@ -10,22 +10,21 @@ namespace drumlin::apps {
 
 namespace {
 
+std::vector<const CLI::App*> commands_of(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
 /// Names of the long options, and of the subcommands before them.
 std::string words_of(const CLI::App& app) {
   std::string words;
-  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
-    words += sub->get_name() + " ";
+  for (const CLI::App* sub : commands_of(app)) words += sub->get_name() + " ";
   for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames()) words += "--" + name + " ";
   if (!words.empty()) words.pop_back();
   return words;
 }
 
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App*) { return true; });
-}
-
-/// "-o,--output FILE" and what it means, of each option but the positional ones and --help.
+/// Visits long name, type and meaning of each option but the positional ones and --help.
 template <class Visit>
 void each_option(const CLI::App& command, Visit visit) {
   for (const CLI::Option* option : command.get_options())
@@ -59,9 +58,9 @@ std::string joined(const auto& names) {
 
 std::string bash_completion(const CLI::App& program) {
   std::string cases;
-  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+  for (const CLI::App* command : commands_of(program)) {
     cases += fmt::format("    {}) words=\"{}\" ;;\n", command->get_name(), words_of(*command));
-    for (const CLI::App* sub : command->get_subcommands([](const CLI::App*) { return true; }))
+    for (const CLI::App* sub : commands_of(*command))
       cases +=
           fmt::format("    {}/{}) words=\"{}\" ;;\n", command->get_name(), sub->get_name(), words_of(*sub));
   }
@@ -112,9 +111,9 @@ std::string fish_completion(const CLI::App& program) {
 }
 
 std::string man_page(const CLI::App& program) {
-  std::string text = fmt::format(
+  std::string text =
       ".TH DRUMLIN 1\n.SH NAME\ndrumlin \\- dense granular flow, grains and continuum\n.SH SYNOPSIS\n"
-      ".B drumlin\n.I COMMAND\n[options]\n.SH COMMANDS\n");
+      ".B drumlin\n.I COMMAND\n[options]\n.SH COMMANDS\n";
   const auto add_command = [&](const std::string& name, const CLI::App& command) {
     text += fmt::format(".SS {}", in_roff(name));
     for (const CLI::Option* option : command.get_options())

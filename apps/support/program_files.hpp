@@ -12,7 +12,7 @@ std::filesystem::path data_folder();
 std::string shipped_scene(const std::string& name);
 /// The Python scripts that draw; the templates of pages stand beside it. Throws IoError likewise.
 std::filesystem::path figures_folder();
-/// The Python that draws: that beside the program (of a virtual environment), else the one of the build.
+/// The Python that draws: that of the wheel which the program is of, else the one of the build.
 std::filesystem::path interpreter();
 
 }  // namespace drumlin::apps

@@ -74,30 +74,6 @@ PointState point_state(const fem::PointReport& s, const dealii::Tensor<1, 2>& u,
           .fluidity = no_value};
 }
 
-PointState outside() {
-  return {{no_value, no_value},
-          no_value,
-          no_value,
-          no_value,
-          no_value,
-          no_value,
-          no_value,
-          no_value,
-          no_value,
-          no_value,
-          no_value,
-          no_value,
-          no_value,
-          no_value,
-          no_value,
-          no_value,
-          no_value,
-          no_value,
-          no_value,
-          no_value,
-          no_value};
-}
-
 // Force, power and torque of the sides with a given velocity, from the residual in their unknowns.
 void add_given_sides(const fem::SolvedLevel& level, Vec2 centre, FlowIntegrals& sums) {
   const auto& d = *level.discretisation;
@@ -183,7 +159,7 @@ int FlowField::cells() const {
 
 std::vector<PointState> FlowField::at(std::span<const Vec2> points) const {
   const auto& d = *level_->discretisation;
-  std::vector<PointState> states(points.size(), outside());
+  std::vector<PointState> states(points.size());
   std::vector<bool> found(points.size(), false);
   for (const auto& [cell, places] : fem::locate(d, points)) {
     std::vector<dealii::Point<2>> unit_points;

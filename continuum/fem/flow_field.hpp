@@ -9,6 +9,7 @@
 
 #include "continuum/fem/flow_state.hpp"
 #include "continuum/model/surface_shape.hpp"
+#include "coupling/common/no_value.hpp"
 
 namespace drumlin::continuum {
 
@@ -19,22 +20,23 @@ struct SolvedLevel;
 /// Velocity, its gradient and the stress at a point; laboratory frame, stresses compression positive. All NaN
 /// outside the domain.
 struct PointState {
-  Vec2 velocity;
-  double dvx_dx = 0, dvx_dz = 0, dvz_dx = 0, dvz_dz = 0;
-  double pressure = 0;
-  double sigma_xx = 0, sigma_zz = 0;
-  double sigma_xz = 0;      ///< traction of the upper layer on the lower one, > 0 in the flow
-  double shear_stress = 0;  ///< along D: |tau| without k
-  double rate = 0;          ///< |D|
+  Vec2 velocity{no_value, no_value};
+  double dvx_dx = no_value, dvx_dz = no_value, dvz_dx = no_value, dvz_dz = no_value;
+  double pressure = no_value;
+  double sigma_xx = no_value, sigma_zz = no_value;
+  double sigma_xz = no_value;      ///< traction of the upper layer on the lower one, > 0 in the flow
+  double shear_stress = no_value;  ///< along D: |tau| without k
+  double rate = no_value;          ///< |D|
   /// The law's sigma_zz, without k its p: I = 2 rate/sqrt(law_pressure), mu = shear_stress/law_pressure.
-  double law_pressure = 0;
-  double k = 0;                ///< of the law; 1 without
-  double axis_angle = 0;       ///< from the axes of D to those of the stress, rad
-  double fluidity_factor = 1;  ///< g_loc/g with nonlocal fluidity; 1 without
-  double viscosity = 0;
-  double memory_xx = 0, memory_xz = 0, memory_rho = 0;  ///< A and rho with memory of the axes; NaN without
-  double well_posedness = 0;  ///< margin (coupling/law/well_posedness.hpp), negative: ill-posed
-  double fluidity = 0;        ///< g = 2|D|/mu with a threshold of fluidity, 1/sqrt(d/g); NaN without
+  double law_pressure = no_value;
+  double k = no_value;                ///< of the law; 1 without
+  double axis_angle = no_value;       ///< from the axes of D to those of the stress, rad
+  double fluidity_factor = no_value;  ///< g_loc/g with nonlocal fluidity; 1 without
+  double viscosity = no_value;
+  double memory_xx = no_value, memory_xz = no_value,
+         memory_rho = no_value;      ///< A and rho with memory of the axes; NaN without
+  double well_posedness = no_value;  ///< margin (coupling/law/well_posedness.hpp), negative: ill-posed
+  double fluidity = no_value;        ///< g = 2|D|/mu with a threshold of fluidity, 1/sqrt(d/g); NaN without
 };
 
 /// Integrals over the domain and its sides, by quadrature of the fields themselves.
