@@ -1,9 +1,9 @@
 // The drumlin command: words to options, options to a command.
 #include "apps/command_line/command_line.hpp"
-#include "apps/support/commands.hpp"
-#include "apps/support/interruption.hpp"
-#include "apps/support/program.hpp"
-#include "apps/support/standard_streams.hpp"
+#include "apps/output/commands.hpp"
+#include "apps/output/program.hpp"
+#include "apps/process/interruption.hpp"
+#include "apps/process/standard_streams.hpp"
 #include "particles/lab/any_solver.hpp"
 
 namespace {

@@ -3,16 +3,16 @@ include(CMakePackageConfigHelpers)
 
 # The libraries that users name hold the small ones, which are exported too for they are static.
 add_library(drumlin_user_particles INTERFACE)
-target_link_libraries(drumlin_user_particles INTERFACE drumlin_particles_lab drumlin_particles drumlin_files)
+target_link_libraries(drumlin_user_particles INTERFACE drumlin_particles_lab drumlin_particles drumlin_hdf5_files)
 add_library(drumlin_user_coupling INTERFACE)
-target_link_libraries(drumlin_user_coupling INTERFACE drumlin_coupling drumlin_law drumlin_exchange drumlin_statistics)
+target_link_libraries(drumlin_user_coupling INTERFACE drumlin_coupling drumlin_law drumlin_results drumlin_statistics)
 add_library(drumlin_user_continuum INTERFACE)
 target_link_libraries(drumlin_user_continuum INTERFACE drumlin_continuum drumlin_continuum_model drumlin_continuum_io)
 foreach(name particles coupling continuum)
   set_target_properties(drumlin_user_${name} PROPERTIES EXPORT_NAME ${name})
 endforeach()
 
-install(TARGETS drumlin_flags drumlin_includes drumlin_common drumlin_documents drumlin_statistics drumlin_law drumlin_exchange drumlin_files
+install(TARGETS drumlin_flags drumlin_includes drumlin_common drumlin_documents drumlin_statistics drumlin_law drumlin_results drumlin_hdf5_files
                 drumlin_particles drumlin_particles_lab drumlin_coupling drumlin_continuum_model drumlin_user_particles drumlin_user_coupling
         EXPORT DrumlinTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 set(export_sets Drumlin)

@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/support/program_files.hpp"
+#include "apps/process/program_files.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/support/commands.hpp"
+#include "apps/output/commands.hpp"
 #include "coupling/documents/key_spec.hpp"
 
 namespace CLI {

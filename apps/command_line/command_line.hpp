@@ -4,8 +4,8 @@
 #include <variant>
 #include <vector>
 
-#include "apps/support/accept.hpp"
-#include "apps/support/commands.hpp"
+#include "apps/output/accept.hpp"
+#include "apps/output/commands.hpp"
 
 namespace drumlin::apps {
 

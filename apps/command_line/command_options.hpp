@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/support/accept.hpp"
-#include "apps/support/commands.hpp"
+#include "apps/output/accept.hpp"
+#include "apps/output/commands.hpp"
 
 namespace CLI {
 class App;

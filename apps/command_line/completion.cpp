@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/support/commands.hpp"
+#include "apps/output/commands.hpp"
 
 namespace drumlin::apps {
 

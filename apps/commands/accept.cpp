@@ -1,5 +1,5 @@
 // drumlin accept: signs a result folder anew after an edit by hand.
-#include "apps/support/accept.hpp"
+#include "apps/output/accept.hpp"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <optional>
 #include <set>
 
-#include "apps/support/standard_streams.hpp"
+#include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/folder_lock.hpp"
-#include "coupling/common/manifest.hpp"
+#include "coupling/common/files/folder_lock.hpp"
+#include "coupling/common/files/manifest.hpp"
 #include "coupling/documents/json_document.hpp"
 
 namespace drumlin::apps {

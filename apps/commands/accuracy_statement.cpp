@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "apps/support/json_file.hpp"
-#include "apps/support/paper_data.hpp"
+#include "apps/json/json_file.hpp"
+#include "apps/output/paper_data.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/input_file.hpp"
+#include "coupling/common/files/input_file.hpp"
 #include "coupling/documents/json_numbers.hpp"
 #include "coupling/documents/json_shape.hpp"
 #include "coupling/statistics/setting_error.hpp"

@@ -5,12 +5,12 @@
 
 #include "apps/commands/compare_inputs.hpp"
 #include "apps/commands/compare_record.hpp"
-#include "apps/support/asked.hpp"
-#include "apps/support/commands.hpp"
-#include "apps/support/json_file.hpp"
-#include "apps/support/output_folder.hpp"
-#include "apps/support/pending_figures.hpp"
-#include "apps/support/standard_streams.hpp"
+#include "apps/json/json_file.hpp"
+#include "apps/output/commands.hpp"
+#include "apps/output/output_folder.hpp"
+#include "apps/output/pending_figures.hpp"
+#include "apps/process/asked.hpp"
+#include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/comparison/layers.hpp"
 

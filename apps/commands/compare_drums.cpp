@@ -5,8 +5,8 @@
 
 #include "apps/commands/compare_overlays.hpp"
 #include "apps/commands/compare_record.hpp"
-#include "apps/support/comparison_json.hpp"
-#include "apps/support/paper_data.hpp"
+#include "apps/json/comparison_json.hpp"
+#include "apps/output/paper_data.hpp"
 #include "coupling/comparison/paper_table.hpp"
 #include "coupling/comparison/targets.hpp"
 

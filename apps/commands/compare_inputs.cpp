@@ -6,11 +6,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/support/json_file.hpp"
+#include "apps/json/json_file.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/comparison/layers.hpp"
-#include "coupling/exchange/run_checks.hpp"
-#include "coupling/files/field_map_file.hpp"
+#include "coupling/hdf5/field_map_file.hpp"
+#include "coupling/results/run_checks.hpp"
 #include "particles/io/snapshot_file.hpp"
 
 namespace drumlin::apps {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/compare_record.hpp"
-#include "apps/support/comparison_json.hpp"
+#include "apps/json/comparison_json.hpp"
 
 namespace drumlin::apps {
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/support/json_file.hpp"
+#include "apps/json/json_file.hpp"
 
 namespace drumlin::apps {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "apps/commands/compare_inputs.hpp"
-#include "apps/support/commands.hpp"
-#include "apps/support/pending_figures.hpp"
+#include "apps/output/commands.hpp"
+#include "apps/output/pending_figures.hpp"
 
 namespace drumlin::apps {
 

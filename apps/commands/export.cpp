@@ -3,13 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/support/asked.hpp"
-#include "apps/support/commands.hpp"
-#include "apps/support/output_folder.hpp"
-#include "apps/support/progress.hpp"
-#include "apps/support/standard_streams.hpp"
+#include "apps/output/commands.hpp"
+#include "apps/output/output_folder.hpp"
+#include "apps/process/asked.hpp"
+#include "apps/process/progress.hpp"
+#include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/text_file.hpp"
+#include "coupling/common/files/text_file.hpp"
 #include "particles/io/run_folder.hpp"
 #include "particles/io/run_grids.hpp"
 #include "particles/io/snapshot_file.hpp"

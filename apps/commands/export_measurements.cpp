@@ -6,14 +6,14 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "apps/support/asked.hpp"
-#include "apps/support/commands.hpp"
-#include "apps/support/output_folder.hpp"
-#include "apps/support/standard_streams.hpp"
+#include "apps/output/commands.hpp"
+#include "apps/output/output_folder.hpp"
+#include "apps/process/asked.hpp"
+#include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/text_file.hpp"
-#include "coupling/exchange/measured_run.hpp"
-#include "coupling/files/field_map_file.hpp"
+#include "coupling/common/files/text_file.hpp"
+#include "coupling/hdf5/field_map_file.hpp"
+#include "coupling/results/measured_run.hpp"
 
 namespace drumlin::apps {
 namespace {

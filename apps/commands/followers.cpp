@@ -9,11 +9,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "apps/support/interruption.hpp"
-#include "apps/support/standard_streams.hpp"
+#include "apps/process/interruption.hpp"
+#include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/last_whole.hpp"
-#include "coupling/common/own_costs.hpp"
+#include "coupling/common/files/last_whole.hpp"
+#include "coupling/common/machine/own_costs.hpp"
 #include "coupling/common/provenance.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/scene/scene_file.hpp"

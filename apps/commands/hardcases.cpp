@@ -6,13 +6,13 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "apps/support/commands.hpp"
-#include "apps/support/hard_case_json.hpp"
-#include "apps/support/json_file.hpp"
-#include "apps/support/output_folder.hpp"
-#include "apps/support/standard_streams.hpp"
-#include "coupling/common/child_process.hpp"
+#include "apps/json/hard_case_json.hpp"
+#include "apps/json/json_file.hpp"
+#include "apps/output/commands.hpp"
+#include "apps/output/output_folder.hpp"
+#include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/machine/child_process.hpp"
 #include "tests/hardcases/registry.hpp"
 
 namespace drumlin::apps {

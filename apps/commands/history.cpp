@@ -5,16 +5,16 @@
 
 #include <numbers>
 
-#include "apps/support/commands.hpp"
-#include "apps/support/output_folder.hpp"
-#include "apps/support/progress.hpp"
-#include "apps/support/standard_streams.hpp"
+#include "apps/output/commands.hpp"
+#include "apps/output/output_folder.hpp"
+#include "apps/process/progress.hpp"
+#include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/files/result_folder.hpp"
+#include "coupling/common/files/text_file.hpp"
 #include "coupling/common/provenance.hpp"
-#include "coupling/common/result_folder.hpp"
-#include "coupling/common/text_file.hpp"
 #include "coupling/documents/csv.hpp"
-#include "coupling/exchange/run_header.hpp"
+#include "coupling/results/run_header.hpp"
 #include "particles/io/run_folder.hpp"
 #include "particles/io/snapshot_list.hpp"
 #include "particles/measurement/history/region_history.hpp"

@@ -4,11 +4,11 @@
 #include <algorithm>
 
 #include "apps/commands/scene_templates.hpp"
-#include "apps/support/commands.hpp"
-#include "apps/support/output_folder.hpp"
-#include "apps/support/standard_streams.hpp"
+#include "apps/output/commands.hpp"
+#include "apps/output/output_folder.hpp"
+#include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/text_file.hpp"
+#include "coupling/common/files/text_file.hpp"
 
 namespace drumlin::apps {
 

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/plot_drawing.hpp"
-#include "apps/support/asked.hpp"
-#include "apps/support/commands.hpp"
-#include "apps/support/json_file.hpp"
-#include "apps/support/output_folder.hpp"
-#include "apps/support/standard_streams.hpp"
+#include "apps/json/json_file.hpp"
+#include "apps/output/commands.hpp"
+#include "apps/output/output_folder.hpp"
+#include "apps/process/asked.hpp"
+#include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 
 namespace drumlin::apps {

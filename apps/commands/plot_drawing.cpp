@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "apps/support/figures.hpp"
-#include "apps/support/json_file.hpp"
+#include "apps/json/json_file.hpp"
+#include "apps/output/figures.hpp"
 #include "coupling/common/errors.hpp"
 #include "particles/bodies/arc.hpp"
 #include "particles/io/snapshot_file.hpp"

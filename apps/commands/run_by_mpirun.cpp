@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "apps/support/commands.hpp"
-#include "apps/support/interruption.hpp"
-#include "coupling/common/child_process.hpp"
+#include "apps/output/commands.hpp"
+#include "apps/process/interruption.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/system_limits.hpp"
+#include "coupling/common/machine/child_process.hpp"
+#include "coupling/common/machine/system_limits.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -9,10 +9,10 @@
 #include <string_view>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/input_file.hpp"
-#include "coupling/common/last_whole.hpp"
-#include "coupling/common/own_folder.hpp"
-#include "coupling/common/text_file.hpp"
+#include "coupling/common/files/input_file.hpp"
+#include "coupling/common/files/last_whole.hpp"
+#include "coupling/common/files/own_folder.hpp"
+#include "coupling/common/files/text_file.hpp"
 
 namespace drumlin::apps {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/common/manifest.hpp"
+#include "coupling/common/files/manifest.hpp"
 #include "particles/scene/scene.hpp"
 
 namespace drumlin::apps {

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/region_table.hpp"
-#include "apps/support/json_file.hpp"
-#include "apps/support/progress.hpp"
-#include "coupling/common/own_costs.hpp"
+#include "apps/json/json_file.hpp"
+#include "apps/process/progress.hpp"
+#include "coupling/common/machine/own_costs.hpp"
 #include "coupling/common/provenance.hpp"
 
 namespace drumlin::apps {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/support/output_folder.hpp"
+#include "apps/output/output_folder.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/scene/scene.hpp"
 

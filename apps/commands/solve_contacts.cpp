@@ -9,9 +9,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "apps/support/commands.hpp"
-#include "apps/support/output_folder.hpp"
-#include "apps/support/standard_streams.hpp"
+#include "apps/output/commands.hpp"
+#include "apps/output/output_folder.hpp"
+#include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "particles/lab/backward_error.hpp"
 #include "particles/lab/contact_problem_file.hpp"

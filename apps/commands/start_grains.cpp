@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "coupling/common/checksum.hpp"
+#include "coupling/common/files/checksum.hpp"
 #include "coupling/documents/json_document.hpp"
 #include "particles/io/grains_of_run.hpp"
 

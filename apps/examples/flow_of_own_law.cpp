@@ -6,7 +6,7 @@
 #include "continuum/fem/flow_solver.hpp"
 #include "continuum/fem/runtime.hpp"
 #include "continuum/fem/scene_options.hpp"
-#include "continuum/sampling/flow_case.hpp"
+#include "continuum/postprocessing/flow_case.hpp"
 #include "coupling/law/friction_law.hpp"
 
 using namespace drumlin;

@@ -8,13 +8,13 @@
 #include "apps/command_line/command_line.hpp"
 #include "apps/flow/flow_hardcases.hpp"
 #include "apps/flow/flow_run.hpp"
-#include "apps/support/interruption.hpp"
-#include "apps/support/program.hpp"
-#include "apps/support/standard_streams.hpp"
+#include "apps/output/program.hpp"
+#include "apps/process/interruption.hpp"
+#include "apps/process/standard_streams.hpp"
 #include "continuum/fem/runtime.hpp"
 #include "continuum/model/flow_scene.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/first_rank.hpp"
+#include "coupling/common/machine/first_rank.hpp"
 #include "coupling/common/provenance.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)

@@ -7,13 +7,13 @@
 #include <numbers>
 
 #include "apps/flow/flow_json.hpp"
-#include "apps/support/figures.hpp"
-#include "apps/support/json_file.hpp"
+#include "apps/json/json_file.hpp"
+#include "apps/output/figures.hpp"
 #include "continuum/io/flow_state_file.hpp"
+#include "coupling/common/files/text_file.hpp"
+#include "coupling/common/files/unfinished_file.hpp"
 #include "coupling/common/provenance.hpp"
-#include "coupling/common/text_file.hpp"
-#include "coupling/common/unfinished_file.hpp"
-#include "coupling/files/field_map_file.hpp"
+#include "coupling/hdf5/field_map_file.hpp"
 
 namespace drumlin::apps {
 namespace {

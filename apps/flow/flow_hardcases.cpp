@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "apps/support/hard_case_json.hpp"
-#include "apps/support/standard_streams.hpp"
+#include "apps/json/hard_case_json.hpp"
+#include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "tests/hardcases/registry.hpp"
 

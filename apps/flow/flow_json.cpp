@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "apps/support/json_file.hpp"
+#include "apps/json/json_file.hpp"
 #include "continuum/rheology/ill_posed_ranges.hpp"
 #include "coupling/documents/json_numbers.hpp"
 

@@ -9,13 +9,13 @@
 #include <sstream>
 
 #include "apps/flow/flow_json.hpp"
-#include "apps/support/interruption.hpp"
-#include "apps/support/json_file.hpp"
-#include "apps/support/standard_streams.hpp"
+#include "apps/json/json_file.hpp"
+#include "apps/process/interruption.hpp"
+#include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/last_whole.hpp"
-#include "coupling/common/result_folder.hpp"
-#include "coupling/common/text_file.hpp"
+#include "coupling/common/files/last_whole.hpp"
+#include "coupling/common/files/result_folder.hpp"
+#include "coupling/common/files/text_file.hpp"
 #include "coupling/documents/csv.hpp"
 #include "coupling/documents/number_text.hpp"
 

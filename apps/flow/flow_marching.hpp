@@ -1,11 +1,11 @@
 #pragma once
 // Files and messages of a march in time: its start, series.csv, checkpoint.h5.
 #include "apps/flow/finished_flow.hpp"
-#include "apps/support/commands.hpp"
-#include "apps/support/output_folder.hpp"
+#include "apps/output/commands.hpp"
+#include "apps/output/output_folder.hpp"
 #include "continuum/fem/runtime.hpp"
 #include "continuum/io/flow_state_file.hpp"
-#include "continuum/marching/drum_march.hpp"
+#include "continuum/time_stepping/drum_march.hpp"
 
 namespace drumlin::apps {
 

@@ -1,6 +1,6 @@
 #pragma once
 // The command `drumlin flow`: reads, solves, writes FLOWRUN.
-#include "apps/support/commands.hpp"
+#include "apps/output/commands.hpp"
 #include "continuum/fem/runtime.hpp"
 
 namespace drumlin::apps {

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "continuum/fem/flow_solver.hpp"
-#include "continuum/sampling/flow_case.hpp"
-#include "coupling/exchange/field_map.hpp"
+#include "continuum/postprocessing/flow_case.hpp"
+#include "coupling/results/field_map.hpp"
 
 namespace drumlin::continuum {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "continuum/fem/flow_solver.hpp"
-#include "continuum/sampling/flow_findings.hpp"
+#include "continuum/postprocessing/flow_findings.hpp"
 
 namespace drumlin::continuum {
 

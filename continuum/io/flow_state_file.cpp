@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/last_whole.hpp"
-#include "coupling/files/h5_reader.hpp"
-#include "coupling/files/h5_writer.hpp"
+#include "coupling/common/files/last_whole.hpp"
+#include "coupling/hdf5/h5_reader.hpp"
+#include "coupling/hdf5/h5_writer.hpp"
 
 namespace drumlin::continuum {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "continuum/marching/march_state.hpp"
+#include "continuum/time_stepping/march_state.hpp"
 
 namespace drumlin::continuum {
 

@@ -23,7 +23,7 @@ struct Gap {
   std::optional<double> speed = {};  ///< of the driven wall; absent: no shear stress at the top
   bool flows_at_wall = false;        ///< the shear is strongest at the wall at rest: there the mesh is fine
   std::string name = {};             ///< of the table of the scene
-  /// Names of the results that mean something here (continuum/sampling/gap_profiles.hpp).
+  /// Names of the results that mean something here (continuum/postprocessing/gap_profiles.hpp).
   std::vector<std::string> scalars = {};
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "continuum/numerics/integral.hpp"
+#include "continuum/quadrature/integral.hpp"
 #include "coupling/statistics/straight_line.hpp"
 
 namespace drumlin::continuum {

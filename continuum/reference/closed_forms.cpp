@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "continuum/numerics/integral.hpp"
+#include "continuum/quadrature/integral.hpp"
 
 namespace drumlin::continuum {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "coupling/exchange/profile_set.hpp"
 #include "coupling/law/rheology_fit.hpp"
+#include "coupling/results/profile_set.hpp"
 
 namespace drumlin::coupling {
 

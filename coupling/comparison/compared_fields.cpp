@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "coupling/common/no_value.hpp"
-#include "coupling/exchange/plane_invariants.hpp"
+#include "coupling/results/plane_invariants.hpp"
 
 namespace drumlin::coupling {
 

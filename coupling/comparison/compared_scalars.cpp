@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "coupling/common/no_value.hpp"
-#include "coupling/exchange/profile_scalars.hpp"
+#include "coupling/results/profile_scalars.hpp"
 
 namespace drumlin::coupling {
 

@@ -3,7 +3,7 @@
 #include "coupling/common/no_value.hpp"
 #include "coupling/comparison/map_sampling.hpp"
 #include "coupling/comparison/parts.hpp"
-#include "coupling/exchange/profile_scalars.hpp"
+#include "coupling/results/profile_scalars.hpp"
 
 namespace drumlin::coupling {
 

@@ -6,7 +6,7 @@
 
 #include "coupling/common/no_value.hpp"
 #include "coupling/comparison/registration.hpp"
-#include "coupling/exchange/plane_invariants.hpp"
+#include "coupling/results/plane_invariants.hpp"
 
 namespace drumlin::coupling {
 

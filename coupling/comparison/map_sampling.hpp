@@ -2,8 +2,8 @@
 // Values of maps between their nodes, and profiles through them.
 #include <vector>
 
-#include "coupling/exchange/field_map.hpp"
-#include "coupling/exchange/profile_set.hpp"
+#include "coupling/results/field_map.hpp"
+#include "coupling/results/profile_set.hpp"
 
 namespace drumlin::coupling {
 

@@ -29,7 +29,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "coupling/common/input_file.hpp"
+#include "coupling/common/files/input_file.hpp"
 #include "coupling/documents/toml_depth.hpp"
 
 namespace drumlin {

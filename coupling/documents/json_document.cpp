@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/input_file.hpp"
+#include "coupling/common/files/input_file.hpp"
 #include "coupling/documents/json_shape.hpp"
 
 namespace drumlin {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/text_file.hpp"
+#include "coupling/common/files/text_file.hpp"
 #include "coupling/documents/key_table.hpp"
 #include "coupling/law/law_draws.hpp"
 

@@ -18,7 +18,7 @@ struct FreeMotion {
   std::vector<double> x, z;  ///< one per grain
   /// How grains answer impulses in the step; empty: with their inverse masses.
   std::vector<double> inverse_mass;
-  std::vector<double> driven;  ///< one per driven wall, along its direction; after the solve, with contacts
+  std::vector<double> driven;    ///< one per driven wall, along its direction; after the solve, with contacts
   std::vector<PathShift> shift;  ///< one per grain; empty: no impacts
 };
 

@@ -4,7 +4,7 @@
 #include <cctype>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/input_file.hpp"
+#include "coupling/common/files/input_file.hpp"
 #include "particles/import/description_keys.hpp"
 
 namespace drumlin::particles {

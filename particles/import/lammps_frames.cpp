@@ -200,7 +200,8 @@ class LammpsFrames {
 
   /// What the named columns give; of those that give the same the first.
   std::vector<DumpColumn> targets_of(const std::vector<std::string_view>& names,
-                                     const std::optional<DumpBox>& box, const Units& units, FrameTable& frame) {
+                                     const std::optional<DumpBox>& box, const Units& units,
+                                     FrameTable& frame) {
     std::vector<DumpColumn> targets;
     for (const std::string_view name : names) {
       DumpColumn target = kind_.meaning(name, box.value_or(DumpBox{}), units);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/files/h5_writer.hpp"
+#include "coupling/hdf5/h5_writer.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/checkpoint_stages.hpp"
 #include "particles/io/checkpoint_traffic.hpp"

@@ -6,10 +6,10 @@
 #include <limits>
 #include <string_view>
 
-#include "coupling/common/last_whole.hpp"
-#include "coupling/common/text_file.hpp"
-#include "coupling/files/h5_reader.hpp"
-#include "coupling/files/h5_writer.hpp"
+#include "coupling/common/files/last_whole.hpp"
+#include "coupling/common/files/text_file.hpp"
+#include "coupling/hdf5/h5_reader.hpp"
+#include "coupling/hdf5/h5_writer.hpp"
 #include "particles/io/checkpoint_contents.hpp"
 #include "particles/io/checkpoint_stages.hpp"
 #include "particles/io/checkpoint_traffic.hpp"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "coupling/files/h5_writer.hpp"
+#include "coupling/hdf5/h5_writer.hpp"
 
 namespace drumlin::particles {
 namespace {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/input_file.hpp"
+#include "coupling/common/files/input_file.hpp"
 #include "coupling/documents/json_document.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/io/snapshot_list.hpp"

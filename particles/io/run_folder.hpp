@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/common/result_folder.hpp"
+#include "coupling/common/files/result_folder.hpp"
 #include "coupling/common/scales.hpp"
 #include "particles/bodies/snapshot.hpp"
 #include "particles/bodies/walls.hpp"

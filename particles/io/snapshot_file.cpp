@@ -4,9 +4,9 @@
 #include <functional>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/text_file.hpp"
-#include "coupling/files/h5_reader.hpp"
-#include "coupling/files/h5_writer.hpp"
+#include "coupling/common/files/text_file.hpp"
+#include "coupling/hdf5/h5_reader.hpp"
+#include "coupling/hdf5/h5_writer.hpp"
 #include "particles/io/snapshot_contents.hpp"
 
 namespace drumlin::particles {

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/files/h5_reader.hpp"
-#include "coupling/files/h5_writer.hpp"
+#include "coupling/hdf5/h5_reader.hpp"
+#include "coupling/hdf5/h5_writer.hpp"
 #include "particles/lab/matrix_problem.hpp"
 
 namespace drumlin::particles {

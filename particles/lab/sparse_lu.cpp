@@ -9,7 +9,7 @@
 #include <new>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/system_limits.hpp"
+#include "coupling/common/machine/system_limits.hpp"
 
 #define DRUMLIN_TEXT_OF(number) #number
 #define DRUMLIN_VERSIONED(name, number) name "." DRUMLIN_TEXT_OF(number)

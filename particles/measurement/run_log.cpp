@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/input_file.hpp"
+#include "coupling/common/files/input_file.hpp"
 #include "coupling/common/no_value.hpp"
 #include "coupling/documents/csv.hpp"
 #include "particles/measurement/frame/intervals.hpp"

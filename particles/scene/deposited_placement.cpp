@@ -15,7 +15,7 @@
 namespace drumlin::particles {
 namespace {
 
-constexpr double widened = 1 + 4e-7;        // radii are so much larger while discs are placed
+constexpr double widened = 1 + 4e-7;      // radii are so much larger while discs are placed
 constexpr double nearly_touching = 1e-9;  // relative to a radius
 constexpr double bin_width = 8;           // in mean diameters: grains fall where a bin's surface is lowest
 constexpr int attempts_in_bin = 5;        // to find a place in a bin that is then called full

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/input_file.hpp"
+#include "coupling/common/files/input_file.hpp"
 #include "coupling/documents/csv.hpp"
 
 namespace drumlin::particles {

@@ -2,7 +2,7 @@
 
 #include <malloc.h>
 
-#include "coupling/common/machine_load.hpp"
+#include "coupling/common/machine/machine_load.hpp"
 #include "particles/stepping/simulation.hpp"
 
 namespace drumlin::particles {

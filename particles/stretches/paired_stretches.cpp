@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/machine_load.hpp"
+#include "coupling/common/machine/machine_load.hpp"
 #include "coupling/common/no_value.hpp"
 #include "coupling/statistics/quantiles.hpp"
 #include "coupling/statistics/resampling.hpp"

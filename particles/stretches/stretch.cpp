@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/machine_load.hpp"
+#include "coupling/common/machine/machine_load.hpp"
 
 namespace drumlin::particles {
 

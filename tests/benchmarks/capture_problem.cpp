@@ -6,7 +6,7 @@
 // others, as it is posed to the solver, without its warm start.
 #include <fmt/format.h>
 
-#include "apps/support/program.hpp"
+#include "apps/output/program.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/documents/number_text.hpp"
 #include "particles/io/snapshot_file.hpp"

@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "apps/support/json_file.hpp"
+#include "apps/json/json_file.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/machine_load.hpp"
+#include "coupling/common/machine/machine_load.hpp"
 #include "particles/detection/contact_list.hpp"
 #include "tests/particles/many_grains.hpp"
 

@@ -9,10 +9,10 @@
 #include <optional>
 #include <string>
 
-#include "apps/support/json_file.hpp"
-#include "apps/support/program.hpp"
+#include "apps/json/json_file.hpp"
+#include "apps/output/program.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/machine_load.hpp"
+#include "coupling/common/machine/machine_load.hpp"
 #include "coupling/documents/number_text.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/scene_file.hpp"

@@ -14,9 +14,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "apps/support/json_file.hpp"
+#include "apps/json/json_file.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/machine_load.hpp"
+#include "coupling/common/machine/machine_load.hpp"
 #include "particles/lab/any_solver.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "tests/benchmarks/flow_steps.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "coupling/common/child_process.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/common/machine/child_process.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/lab/any_solver.hpp"
 #include "particles/scene/scene_file.hpp"

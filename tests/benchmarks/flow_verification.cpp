@@ -10,12 +10,12 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "apps/support/json_file.hpp"
+#include "apps/json/json_file.hpp"
 #include "continuum/fem/flow_solver.hpp"
 #include "continuum/fem/runtime.hpp"
+#include "continuum/postprocessing/drum_profiles.hpp"
+#include "continuum/postprocessing/gap_profiles.hpp"
 #include "continuum/reference/closed_forms.hpp"
-#include "continuum/sampling/drum_profiles.hpp"
-#include "continuum/sampling/gap_profiles.hpp"
 #include "coupling/common/errors.hpp"
 #include "tests/continuum/gap_flows.hpp"
 #include "tests/continuum/manufactured_flow.hpp"

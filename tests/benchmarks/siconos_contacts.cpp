@@ -17,9 +17,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "apps/support/json_file.hpp"
+#include "apps/json/json_file.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/machine_load.hpp"
+#include "coupling/common/machine/machine_load.hpp"
 #include "coupling/documents/number_text.hpp"
 #include "particles/contact/residual.hpp"
 #include "particles/lab/contact_problem_file.hpp"

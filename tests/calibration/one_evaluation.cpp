@@ -8,10 +8,10 @@
 #include "continuum/rheology/stress_law.hpp"
 #include "continuum/rheology/turned_law.hpp"
 #include "coupling/calibration/calibration.hpp"
-#include "coupling/exchange/plane_invariants.hpp"
 #include "coupling/law/rheology_file.hpp"
+#include "coupling/results/plane_invariants.hpp"
 #include "shear_layer.hpp"
-#include "tests/exchange_files/folder.hpp"
+#include "tests/files/folder.hpp"
 
 namespace drumlin::one_evaluation_test {
 using namespace continuum;

@@ -2,7 +2,7 @@
 
 #include "coupling/common/errors.hpp"
 #include "coupling/law/rheology_file.hpp"
-#include "tests/exchange_files/folder.hpp"
+#include "tests/files/folder.hpp"
 
 namespace drumlin {
 namespace {

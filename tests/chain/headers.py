@@ -23,11 +23,11 @@ PUBLIC_LIBRARIES = {"particles": ["Eigen/"], "apps": ["nlohmann/json_fwd.hpp"], 
 PRIVATE_LIBRARIES = {
     "deal.II/": ["continuum/fem", "particles/distributed"],
     "petsc": ["continuum/fem"],
-    "hdf5": ["coupling/files"],
+    "hdf5": ["coupling/hdf5"],
     "toml++/": ["coupling/documents/document.cpp"],
     "CLI/": ["apps/command_line"],
     "boost/": ["coupling/statistics"],
-    "openssl/": ["coupling/common/checksum.cpp"],
+    "openssl/": ["coupling/common/files/checksum.cpp"],
 }
 # Private to the finite elements: included by continuum/fem alone, full of deal.II, no part of the interface.
 PRIVATE_FOLDERS = ["continuum/fem/detail"]

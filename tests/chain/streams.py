@@ -145,7 +145,7 @@ def check_one_way_to_print(root):
         text = path.read_text(encoding="utf-8")
         if path.name != "standard_streams.cpp" and "examples" not in path.parts:  # those are programs of users
             for way in ("fmt::print", "std::cout", "std::cerr", "stdout", "stderr", "printf("):
-                require(way not in text, f"{path.relative_to(root)} prints by {way}; apps/support/standard_streams.hpp is the way")
+                require(way not in text, f"{path.relative_to(root)} prints by {way}; apps/process/standard_streams.hpp is the way")
 
 
 def main():

@@ -1,5 +1,5 @@
 // Started programs: what they print, how they end, what reaches them.
-#include "coupling/common/child_process.hpp"
+#include "coupling/common/machine/child_process.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -2,12 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/folder_lock.hpp"
-#include "coupling/common/last_whole.hpp"
-#include "coupling/common/manifest.hpp"
-#include "coupling/common/result_folder.hpp"
-#include "coupling/common/text_file.hpp"
-#include "tests/exchange_files/folder.hpp"
+#include "coupling/common/files/folder_lock.hpp"
+#include "coupling/common/files/last_whole.hpp"
+#include "coupling/common/files/manifest.hpp"
+#include "coupling/common/files/result_folder.hpp"
+#include "coupling/common/files/text_file.hpp"
+#include "tests/files/folder.hpp"
 #include "tests/support/signed_folder.hpp"
 
 namespace drumlin {

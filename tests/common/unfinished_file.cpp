@@ -1,5 +1,5 @@
 // Files that are written aside: gone with their object, and when a signal handler ends the process.
-#include "coupling/common/unfinished_file.hpp"
+#include "coupling/common/files/unfinished_file.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "coupling/common/child_process.hpp"
+#include "coupling/common/machine/child_process.hpp"
 
 namespace drumlin {
 namespace {

@@ -1,10 +1,10 @@
 // drumlin compare on folders made here: what it refuses, and what it leaves.
 #include <gtest/gtest.h>
 
-#include "apps/support/commands.hpp"
+#include "apps/output/commands.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/comparison/layers.hpp"
-#include "coupling/files/field_map_file.hpp"
+#include "coupling/hdf5/field_map_file.hpp"
 #include "particles/measurement/layers/scalars.hpp"
 #include "tests/comparison/example_maps.hpp"
 #include "tests/comparison/run_folders.hpp"

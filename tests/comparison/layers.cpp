@@ -8,7 +8,7 @@
 
 #include "coupling/common/errors.hpp"
 #include "tests/comparison/shear_example.hpp"
-#include "tests/exchange_files/folder.hpp"
+#include "tests/files/folder.hpp"
 
 namespace drumlin::coupling {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/exchange/measured_run.hpp"
+#include "coupling/results/measured_run.hpp"
 #include "tests/comparison/run_folders.hpp"
 #include "tests/support/data_folder.hpp"
 #include "tests/support/says.hpp"

@@ -2,9 +2,9 @@
 // Folders as `drumlin measure` and `drumlin flow` leave them, with the profiles of example.hpp.
 #include <nlohmann/json.hpp>
 
-#include "coupling/common/text_file.hpp"
+#include "coupling/common/files/text_file.hpp"
 #include "tests/comparison/example.hpp"
-#include "tests/exchange_files/folder.hpp"
+#include "tests/files/folder.hpp"
 
 namespace drumlin::testing {
 

@@ -1,7 +1,7 @@
 // Effects of the continuum on a drum of 30 grains' width.
 #include "boxes.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
-#include "continuum/sampling/drum_profiles.hpp"
+#include "continuum/postprocessing/drum_profiles.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"
 
 namespace drumlin::effects_test {

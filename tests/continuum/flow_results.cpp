@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "continuum/estimates/flow_accuracy.hpp"
-#include "continuum/marching/drum_march.hpp"
+#include "continuum/time_stepping/drum_march.hpp"
 #include "tests/support/data_folder.hpp"
 
 namespace drumlin {

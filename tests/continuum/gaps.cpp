@@ -1,6 +1,6 @@
 // Finite elements across a gap against the solution by quadrature: order, balances, frames.
 #include "boxes.hpp"
-#include "continuum/sampling/gap_profiles.hpp"
+#include "continuum/postprocessing/gap_profiles.hpp"
 #include "gap_flows.hpp"
 
 namespace drumlin::gaps_test {

@@ -1,7 +1,7 @@
 // Steps in time.
 #include "boxes.hpp"
 #include "continuum/fem/runtime.hpp"
-#include "continuum/sampling/drum_profiles.hpp"
+#include "continuum/postprocessing/drum_profiles.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"
 
 namespace drumlin::march {

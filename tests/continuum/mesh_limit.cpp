@@ -1,4 +1,4 @@
-#include "continuum/numerics/mesh_limit.hpp"
+#include "continuum/model/mesh_limit.hpp"
 
 #include <gtest/gtest.h>
 

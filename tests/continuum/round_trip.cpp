@@ -2,8 +2,8 @@
 #include <random>
 
 #include "boxes.hpp"
-#include "continuum/sampling/drum_profiles.hpp"
-#include "continuum/sampling/flow_maps.hpp"
+#include "continuum/postprocessing/drum_profiles.hpp"
+#include "continuum/postprocessing/flow_maps.hpp"
 #include "coupling/calibration/calibrated_law.hpp"
 #include "coupling/calibration/law_points.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"

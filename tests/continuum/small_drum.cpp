@@ -5,8 +5,8 @@
 
 #include "boxes.hpp"
 #include "continuum/fem/runtime.hpp"
-#include "continuum/sampling/drum_profiles.hpp"
-#include "coupling/files/field_map_file.hpp"
+#include "continuum/postprocessing/drum_profiles.hpp"
+#include "coupling/hdf5/field_map_file.hpp"
 
 namespace drumlin::small_drum_test {
 using namespace continuum;

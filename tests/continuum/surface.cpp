@@ -1,6 +1,6 @@
 // A surface that moves: to where nothing presses on it, with all of the area.
 #include "boxes.hpp"
-#include "continuum/sampling/drum_profiles.hpp"
+#include "continuum/postprocessing/drum_profiles.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"
 #include "tests/support/says.hpp"
 

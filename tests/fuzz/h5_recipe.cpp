@@ -8,7 +8,7 @@
 
 #include "coupling/common/errors.hpp"
 #include "coupling/documents/number_text.hpp"
-#include "coupling/files/h5_writer.hpp"
+#include "coupling/hdf5/h5_writer.hpp"
 
 namespace drumlin::fuzz {
 namespace {

@@ -1,7 +1,7 @@
 // docs/formats/import.md lists the keys as the program knows them.
 #include <gtest/gtest.h>
 
-#include "coupling/common/text_file.hpp"
+#include "coupling/common/files/text_file.hpp"
 #include "particles/import/description.hpp"
 #include "tests/support/data_folder.hpp"
 #include "tests/support/says.hpp"

@@ -5,7 +5,7 @@
 
 #include "coupling/common/errors.hpp"
 #include "particles/import/import_run.hpp"
-#include "tests/exchange_files/folder.hpp"
+#include "tests/files/folder.hpp"
 
 namespace drumlin::testing {
 

@@ -1,21 +1,21 @@
 // drumlin measure and drumlin calibrate on run folders made here.
-#include "apps/support/commands.hpp"
+#include "apps/output/commands.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "apps/support/pending_figures.hpp"
+#include "apps/output/pending_figures.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/text_file.hpp"
-#include "coupling/exchange/scalar_set.hpp"
-#include "coupling/files/field_map_file.hpp"
-#include "coupling/files/h5_reader.hpp"
+#include "coupling/common/files/text_file.hpp"
+#include "coupling/hdf5/field_map_file.hpp"
+#include "coupling/hdf5/h5_reader.hpp"
 #include "coupling/law/rheology_file.hpp"
+#include "coupling/results/scalar_set.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "tests/comparison/run_folders.hpp"
-#include "tests/exchange_files/folder.hpp"
+#include "tests/files/folder.hpp"
 #include "tests/measurement/packings.hpp"
 #include "tests/support/signed_folder.hpp"
 
@@ -166,7 +166,7 @@ TEST(MeasureCommand, KeepsWhatIsThereUnlessToldOtherwise) {
   EXPECT_EQ(measure(options_for(run, ExistingOutput::overwrite)), 0);
 }
 
-// That a script which fails is named and costs the others nothing: PendingFigures in tests/exchange_files.
+// That a script which fails is named and costs the others nothing: PendingFigures in tests/files.
 TEST(MeasureCommand, FiguresThatAreMissingAreDrawnAgainAndCostNoNumber) {
   const TemporaryFolder folder;
   const fs::path run = run_folder(folder, "finished", std::vector<Snapshot>(5, small_columns()));

@@ -4,7 +4,7 @@
 
 #include "coupling/common/errors.hpp"
 #include "particles/measurement/run_log.hpp"
-#include "tests/exchange_files/folder.hpp"
+#include "tests/files/folder.hpp"
 
 namespace drumlin {
 using namespace particles;

@@ -4,8 +4,8 @@
 #include <fstream>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/files/h5_reader.hpp"
-#include "coupling/files/h5_writer.hpp"
+#include "coupling/hdf5/h5_reader.hpp"
+#include "coupling/hdf5/h5_writer.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/lab/any_solver.hpp"
 #include "particles/lab/contact_problem_file.hpp"

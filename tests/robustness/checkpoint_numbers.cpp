@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/text_file.hpp"
+#include "coupling/common/files/text_file.hpp"
 #include "particles/io/checkpoint_file.hpp"
-#include "tests/exchange_files/folder.hpp"
+#include "tests/files/folder.hpp"
 #include "tests/fuzz/h5_recipe.hpp"
 #include "tests/support/data_folder.hpp"
 

@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/text_file.hpp"
-#include "coupling/files/field_map_file.hpp"
-#include "coupling/files/h5_writer.hpp"
+#include "coupling/common/files/text_file.hpp"
+#include "coupling/hdf5/field_map_file.hpp"
+#include "coupling/hdf5/h5_writer.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/lab/any_solver.hpp"

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "coupling/common/errors.hpp"
-#include "tests/exchange_files/folder.hpp"
+#include "tests/files/folder.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace drumlin {

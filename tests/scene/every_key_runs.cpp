@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "apps/support/commands.hpp"
-#include "apps/support/json_file.hpp"
+#include "apps/json/json_file.hpp"
+#include "apps/output/commands.hpp"
 #include "coupling/common/errors.hpp"
 #include "particles/io/snapshot_file.hpp"
-#include "tests/exchange_files/folder.hpp"
+#include "tests/files/folder.hpp"
 
 namespace drumlin::testing {
 using namespace particles;

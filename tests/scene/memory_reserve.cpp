@@ -1,12 +1,12 @@
 // The memory that a program sets aside for the moment when there is no more.
-#include "apps/support/memory_reserve.hpp"
+#include "apps/process/memory_reserve.hpp"
 
 #include <gtest/gtest.h>
 
 #include <new>
 #include <stdexcept>
 
-#include "coupling/common/child_process.hpp"
+#include "coupling/common/machine/child_process.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <sstream>
 
-#include "coupling/common/child_process.hpp"
-#include "tests/exchange_files/folder.hpp"
+#include "coupling/common/machine/child_process.hpp"
+#include "tests/files/folder.hpp"
 #include "tests/scene/example.hpp"
 
 namespace drumlin {

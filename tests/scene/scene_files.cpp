@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "particles/scene/scene_file.hpp"
-#include "tests/exchange_files/folder.hpp"
+#include "tests/files/folder.hpp"
 #include "tests/scene/example.hpp"
 
 namespace drumlin {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/exchange/run_header.hpp"
+#include "coupling/results/run_header.hpp"
 
 namespace drumlin::testing {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "coupling/common/manifest.hpp"
+#include "coupling/common/files/manifest.hpp"
 
 namespace drumlin::testing {
 

@@ -5,7 +5,7 @@
 
 #include "apps/commands/calibrate/memory_json.hpp"
 #include "apps/commands/calibrate/nonlocal_json.hpp"
-#include "apps/support/json_file.hpp"
+#include "apps/json/json_file.hpp"
 #include "coupling/statistics/straight_line.hpp"
 
 namespace drumlin::apps {

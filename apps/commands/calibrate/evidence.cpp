@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/files/field_map_file.hpp"
+#include "coupling/hdf5/field_map_file.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -2,9 +2,9 @@
 // Reads the measured runs that a calibration starts from.
 #include <vector>
 
-#include "apps/support/commands.hpp"
+#include "apps/output/commands.hpp"
 #include "coupling/calibration/run_evidence.hpp"
-#include "coupling/exchange/measured_run.hpp"
+#include "coupling/results/measured_run.hpp"
 
 namespace drumlin::apps {
 

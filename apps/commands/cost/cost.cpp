@@ -7,15 +7,15 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
-#include "apps/support/figures.hpp"
-#include "apps/support/interruption.hpp"
-#include "apps/support/json_file.hpp"
-#include "apps/support/output_folder.hpp"
-#include "apps/support/standard_streams.hpp"
-#include "coupling/common/child_process.hpp"
+#include "apps/json/json_file.hpp"
+#include "apps/output/figures.hpp"
+#include "apps/output/output_folder.hpp"
+#include "apps/process/interruption.hpp"
+#include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/text_file.hpp"
-#include "coupling/common/unfinished_file.hpp"
+#include "coupling/common/files/text_file.hpp"
+#include "coupling/common/files/unfinished_file.hpp"
+#include "coupling/common/machine/child_process.hpp"
 #include "coupling/documents/document.hpp"
 
 namespace drumlin::apps {

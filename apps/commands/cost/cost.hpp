@@ -5,7 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-#include "apps/support/commands.hpp"
+#include "apps/output/commands.hpp"
 #include "particles/scene/effect_variants.hpp"
 #include "particles/stretches/stretch.hpp"
 

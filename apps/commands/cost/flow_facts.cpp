@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/cost/cost.hpp"
-#include "coupling/common/text_file.hpp"
+#include "coupling/common/files/text_file.hpp"
 #include "coupling/documents/document.hpp"
 #include "coupling/documents/toml_text.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/support/json_file.hpp"
+#include "apps/json/json_file.hpp"
 #include "coupling/documents/json_numbers.hpp"
 
 namespace drumlin::apps {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "apps/support/figures.hpp"
-#include "coupling/common/text_file.hpp"
+#include "apps/output/figures.hpp"
+#include "coupling/common/files/text_file.hpp"
 #include "coupling/documents/json_numbers.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/layers/variants.hpp"

@@ -9,9 +9,9 @@
 #include <span>
 #include <utility>
 
-#include "apps/support/standard_streams.hpp"
+#include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/text_file.hpp"
+#include "coupling/common/files/text_file.hpp"
 #include "coupling/documents/csv.hpp"
 #include "particles/measurement/layers/slice.hpp"
 

@@ -8,11 +8,11 @@
 #include <optional>
 #include <utility>
 
-#include "apps/support/json_file.hpp"
-#include "apps/support/standard_streams.hpp"
-#include "coupling/common/scratch_file.hpp"
+#include "apps/json/json_file.hpp"
+#include "apps/process/standard_streams.hpp"
+#include "coupling/common/files/scratch_file.hpp"
 #include "coupling/documents/json_numbers.hpp"
-#include "coupling/files/field_map_file.hpp"
+#include "coupling/hdf5/field_map_file.hpp"
 #include "particles/measurement/maps/field_values.hpp"
 #include "particles/measurement/maps/map_measurement.hpp"
 

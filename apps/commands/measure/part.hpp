@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/support/commands.hpp"
+#include "apps/output/commands.hpp"
 #include "particles/measurement/measurement.hpp"
 
 namespace drumlin::apps {

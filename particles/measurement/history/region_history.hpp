@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "coupling/exchange/plane_invariants.hpp"
+#include "coupling/results/plane_invariants.hpp"
 #include "particles/bodies/snapshot.hpp"
 
 namespace drumlin::particles {

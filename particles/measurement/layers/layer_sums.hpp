@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "coupling/exchange/plane_invariants.hpp"
+#include "coupling/results/plane_invariants.hpp"
 #include "particles/measurement/frame/disc_area.hpp"
 #include "particles/measurement/frame/flow_snapshot.hpp"
 

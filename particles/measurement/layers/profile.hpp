@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "coupling/exchange/profile_set.hpp"
+#include "coupling/results/profile_set.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/layers/layer_sums.hpp"
 

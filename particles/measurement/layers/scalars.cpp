@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/exchange/profile_scalars.hpp"
+#include "coupling/results/profile_scalars.hpp"
 #include "coupling/statistics/straight_line.hpp"
 #include "particles/measurement/frame/measurement_frame.hpp"
 

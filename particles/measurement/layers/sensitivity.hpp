@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "coupling/exchange/profile_set.hpp"
-#include "coupling/exchange/scalar_set.hpp"
+#include "coupling/results/profile_set.hpp"
+#include "coupling/results/scalar_set.hpp"
 
 namespace drumlin::particles {
 

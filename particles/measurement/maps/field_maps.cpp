@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "coupling/common/no_value.hpp"
-#include "coupling/exchange/plane_invariants.hpp"
+#include "coupling/results/plane_invariants.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/maps/field_values.hpp"
 #include "particles/measurement/maps/spline_kernel.hpp"

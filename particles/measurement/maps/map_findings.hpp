@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "coupling/exchange/field_map.hpp"
+#include "coupling/results/field_map.hpp"
 
 namespace drumlin::particles {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "continuum/fem/flow_solver.hpp"
-#include "continuum/sampling/drum_profiles.hpp"
+#include "continuum/postprocessing/drum_profiles.hpp"
 #include "coupling/common/errors.hpp"
 #include "tests/hardcases/continuum/case_lists.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"

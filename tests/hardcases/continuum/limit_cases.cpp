@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "continuum/fem/flow_solver.hpp"
-#include "continuum/sampling/gap_profiles.hpp"
+#include "continuum/postprocessing/gap_profiles.hpp"
 #include "tests/hardcases/continuum/case_lists.hpp"
 
 namespace drumlin {

@@ -4,7 +4,7 @@
 
 #include "continuum/fem/flow_solver.hpp"
 #include "continuum/model/drum.hpp"
-#include "continuum/sampling/drum_profiles.hpp"
+#include "continuum/postprocessing/drum_profiles.hpp"
 
 namespace drumlin {
 

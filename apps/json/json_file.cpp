@@ -1,0 +1,46 @@
+#include "apps/json/json_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "coupling/common/errors.hpp"
+#include "coupling/common/files/text_file.hpp"
+#include "coupling/documents/json_numbers.hpp"
+
+namespace drumlin::apps {
+
+using Json = nlohmann::ordered_json;
+
+void write_json(const std::filesystem::path& file, const Json& content) {
+  // The library writes NaN and infinity as null, which is what the formats ask for. A name of others may be
+  // no UTF-8: it stands there with the sign for an unknown letter.
+  replace_file(file, content.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void add_accepted_edits(Json& provenance, const std::vector<std::string>& edits) {
+  if (!edits.empty()) provenance["accepted_edits"] = edits;
+}
+
+Json to_json(const Scalar& scalar) {
+  if (!scalar.ci99) return number_or_null(scalar.value);
+  return {{"value", number_or_null(scalar.value)}, {"ci99", number_or_null(*scalar.ci99)}};
+}
+
+Json to_json(const Provenance& provenance) {
+  return {{"revision", provenance.revision},
+          {"compiler", provenance.compiler},
+          {"build_type", provenance.build_type},
+          {"machine", provenance.machine},
+          {"processors", provenance.processors}};
+}
+
+Json to_json(const Scales& scales) {
+  return {{"length_m", scales.length_m}, {"time_s", scales.time_s}, {"density_kg_m3", scales.density_kg_m3}};
+}
+
+void add_scalars(Json& content, const ScalarSet& scalars) {
+  for (const auto& scalar : scalars.scalars) content[scalar.name] = to_json(scalar);
+}
+
+Json to_json(const LawCurve& curve) { return {{"I", curve.I}, {"mu", curve.mu}}; }
+
+}  // namespace drumlin::apps

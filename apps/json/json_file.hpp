@@ -1,0 +1,32 @@
+#pragma once
+// JSON files of the commands, written aside and renamed, and the values that all of them hold.
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "coupling/common/provenance.hpp"
+#include "coupling/common/scales.hpp"
+#include "coupling/documents/json_document.hpp"
+#include "coupling/law/law_curve.hpp"
+#include "coupling/results/scalar_set.hpp"
+
+namespace drumlin::apps {
+
+/// Indented, in the order of the keys, NaN as null; written aside and renamed. Throws IoError.
+void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& content);
+
+/// Adds "accepted_edits" to a provenance if there are any (`accepted_edits` of result_folder.hpp).
+void add_accepted_edits(nlohmann::ordered_json& provenance, const std::vector<std::string>& edits);
+
+/// {"value": , "ci99": } for a measurement, the plain number where there is no interval; null for what was
+/// not computed.
+nlohmann::ordered_json to_json(const Scalar& scalar);
+nlohmann::ordered_json to_json(const Provenance& provenance);
+nlohmann::ordered_json to_json(const Scales& scales);
+nlohmann::ordered_json to_json(const LawCurve& curve);  ///< {"I": [...], "mu": [...]}
+
+/// Adds each scalar under its name.
+void add_scalars(nlohmann::ordered_json& content, const ScalarSet& scalars);
+
+}  // namespace drumlin::apps

@@ -1,0 +1,50 @@
+#include "apps/process/asked.hpp"
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "apps/process/standard_streams.hpp"
+#include "coupling/common/errors.hpp"
+#include "coupling/common/files/checksum.hpp"
+#include "coupling/common/files/manifest.hpp"
+
+namespace drumlin::apps {
+
+namespace fs = std::filesystem;
+
+std::string asked_sum(const nlohmann::ordered_json& asked) {
+  return text_sum(asked.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+std::string input_sum(const fs::path& input) {
+  if (fs::is_regular_file(input)) return file_sum(fs::canonical(input)).checksum;
+  if (!fs::is_directory(input)) return "";
+  if (has_manifest(input)) return manifest_sum(read_manifest(input));
+  // Measurements that were cut out of a run, and nothing else: a mistyped folder is not read.
+  const bool ours = fs::exists(input / "run.json") || fs::exists(input / "measured.json") ||
+                    fs::exists(input / "flow.json");
+  if (!ours) return "";
+  Checksum sum;
+  std::vector<std::string> names = files_below(input);
+  std::erase_if(names, [](const std::string& name) { return name.starts_with("snapshots/"); });
+  for (const auto& [name, entry] : entries_of(input, names)) sum.add(name + " " + entry.sum.checksum + "\n");
+  return sum.text();
+}
+
+std::string measured_run_sum(const fs::path& run) { return input_sum(run) + input_sum(run / "measured"); }
+
+int done_already(const fs::path& folder, const std::string& asked) {
+  refuse_other(folder, asked);
+  print_out(folder.string() + ": done already\n");
+  return static_cast<int>(ExitCode::done);
+}
+
+void refuse_other(const fs::path& folder, const std::string& asked) {
+  if (!has_manifest(folder)) return;
+  const std::string before = read_manifest(folder).asked;
+  if (!before.empty() && before != asked)
+    throw InputError(folder.string() +
+                     ": holds results of other inputs or options; --overwrite makes them anew");
+}
+
+}  // namespace drumlin::apps

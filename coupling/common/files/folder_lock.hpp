@@ -1,0 +1,39 @@
+#pragma once
+// A lock that one process at a time holds on what it writes; it ends with the process, however that ends.
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "coupling/common/files/own_folder.hpp"
+#include "coupling/common/files/unfinished_file.hpp"
+
+namespace drumlin {
+
+/// The name of the lock file in a result folder.
+inline constexpr const char* folder_lock_name = ".lock";
+
+/// flock(2) on a file that exists only as long as the lock is held; signals that end the process remove it
+/// too. A file that a killed process left is no obstacle. The folder of a lock of this name is an OwnFolder.
+class FolderLock {
+ public:
+  /// `command`: who holds it, for whom it keeps out. Throws InputError that names the holder (process,
+  /// command, since when) if another one holds it, IoError if the file cannot be made.
+  FolderLock(std::filesystem::path file, const std::string& command);
+  ~FolderLock();
+  FolderLock(FolderLock&&) noexcept;
+  FolderLock& operator=(FolderLock&&) = delete;
+  FolderLock(const FolderLock&) = delete;
+
+ private:
+  bool take(const std::string& command);
+  std::filesystem::path file_;
+  std::optional<OwnFolder> own_;
+  int descriptor_ = -1;
+  std::unique_ptr<UnfinishedFile> named_;  // while it is held
+};
+
+/// Now, as "2026-03-14 15:09:26 UTC".
+std::string time_text();
+
+}  // namespace drumlin

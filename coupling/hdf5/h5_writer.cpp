@@ -1,0 +1,236 @@
+#include "coupling/hdf5/h5_writer.hpp"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <fstream>
+#include <initializer_list>
+#include <iterator>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "coupling/common/errors.hpp"
+#include "coupling/common/files/text_file.hpp"
+#include "coupling/hdf5/h5_handles.hpp"
+
+namespace drumlin {
+namespace {
+
+/// Of all that a file holds, at its end.
+void append_checksum(const std::filesystem::path& file) {
+  std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+  std::vector<char> piece(1 << 20);
+  std::uint32_t sum = 0;
+  while (stream.read(piece.data(), static_cast<std::streamsize>(piece.size())), stream.gcount() > 0)
+    sum = h5_checksum(std::span(piece).first(static_cast<std::size_t>(stream.gcount())), sum);
+  const bool whole = stream.eof();
+  stream.clear();
+  stream.seekp(0, std::ios::end);
+  const std::string end = h5_trailer(sum);
+  stream.write(end.data(), static_cast<std::streamsize>(end.size())).flush();
+  if (!whole || !stream) throw IoError(file.string() + ": cannot be closed by its checksum");
+}
+
+/// To the nearest number of so many binary digits; what is not finite stays.
+float rounded_to(float value, int bits) {
+  if (!std::isfinite(value)) return value;
+  int exponent = 0;
+  const float fraction = std::frexp(value, &exponent);
+  return std::ldexp(std::nearbyint(std::ldexp(fraction, bits + 1)), exponent - bits - 1);
+}
+
+constexpr hsize_t all_rows = std::numeric_limits<hsize_t>::max();
+constexpr hsize_t packed_piece = 1 << 20;  // bytes of what is unpacked at once, at most
+
+/// Whole rows to a piece.
+void pack(hid_t creation, std::initializer_list<hsize_t> shape) {
+  const hsize_t rows = *std::data(shape), row_bytes = *(std::data(shape) + 1) * sizeof(float);
+  const hsize_t piece[] = {std::clamp<hsize_t>(packed_piece / row_bytes, 1, rows), *(std::data(shape) + 1)};
+  check_h5(H5Pset_chunk(creation, 2, piece) >= 0 && H5Pset_shuffle(creation) >= 0 &&
+               H5Pset_deflate(creation, 9) >= 0,
+           "pack a dataset");
+}
+
+/// Rows of a table, from `first` on.
+void write_rows(hid_t set, hid_t memory_type, const void* data, hsize_t first, hsize_t rows) {
+  const H5Id space(H5Dget_space(set), H5Sclose);
+  hsize_t shape[2] = {};
+  H5Sget_simple_extent_dims(space.get(), shape, nullptr);
+  const hsize_t start[] = {first, 0}, count[] = {rows, shape[1]};
+  const H5Id memory(H5Screate_simple(2, count, nullptr), H5Sclose);
+  check_h5(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start, nullptr, count, nullptr) >= 0 &&
+               H5Dwrite(set, memory_type, memory.get(), space.get(), H5P_DEFAULT, data) >= 0,
+           "write rows of a dataset");
+}
+
+/// A dataset of a type and shape, and the groups on the way to it.
+H5Id create_set(hid_t file, const std::string& name, hid_t file_type, std::initializer_list<hsize_t> shape,
+                bool packed) {
+  const H5Id links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  check_h5(H5Pset_create_intermediate_group(links.get(), 1) >= 0, "create a group");
+  const H5Id space(H5Screate_simple(static_cast<int>(shape.size()), std::data(shape), nullptr), H5Sclose);
+  // No object times: the same state gives the same bytes.
+  const H5Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  check_h5(H5Pset_obj_track_times(creation.get(), false) >= 0, "leave out times");
+  if (packed) pack(creation.get(), shape);
+  const hid_t set =
+      H5Dcreate2(file, name.c_str(), file_type, space.get(), links.get(), creation.get(), H5P_DEFAULT);
+  check_h5(set >= 0, "create a dataset");
+  return {set, H5Dclose};
+}
+
+/// `rows`: of a table, that `data` holds; all of them unless told.
+void put(hid_t file, const std::string& name, hid_t memory_type, hid_t file_type, const void* data,
+         std::initializer_list<hsize_t> shape, bool packed = false, hsize_t rows = all_rows) {
+  const H5Id set = create_set(file, name, file_type, shape, packed);
+  if (std::find(shape.begin(), shape.end(), hsize_t{0}) != shape.end()) return;
+  if (rows != all_rows)
+    write_rows(set.get(), memory_type, data, 0, rows);
+  else
+    check_h5(H5Dwrite(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, "write a dataset");
+}
+
+template <class T>
+hid_t file_type_of() {
+  if constexpr (std::is_same_v<T, double>)
+    return H5T_IEEE_F64LE;
+  else if constexpr (std::is_same_v<T, float>)
+    return H5T_IEEE_F32LE;
+  else if constexpr (std::is_same_v<T, std::int32_t>)
+    return H5T_STD_I32LE;
+  else
+    return H5T_STD_I64LE;
+}
+
+}  // namespace
+
+struct H5Content::Handles {
+  Handles(hid_t access_list, const char* name)
+      : access(access_list, H5Pclose),
+        file(std::make_unique<H5Id>(H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose)) {
+    check_h5(file->valid(), "create a file");
+  }
+  H5Id access;
+  std::unique_ptr<H5Id> file;
+};
+
+H5Content::H5Content(std::unique_ptr<Handles> handles) : handles_(std::move(handles)) {}
+H5Content::~H5Content() = default;
+
+void H5Content::add(const std::string& name, std::span<const double> values) {
+  put(handles_->file->get(), name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values.data(), {values.size()});
+}
+void H5Content::add(const std::string& name, std::span<const float> values) {
+  put(handles_->file->get(), name, H5T_NATIVE_FLOAT, H5T_IEEE_F32LE, values.data(), {values.size()});
+}
+void H5Content::add(const std::string& name, std::span<const std::int32_t> values) {
+  put(handles_->file->get(), name, H5T_NATIVE_INT32, H5T_STD_I32LE, values.data(), {values.size()});
+}
+void H5Content::add(const std::string& name, std::span<const std::int64_t> values) {
+  put(handles_->file->get(), name, H5T_NATIVE_INT64, H5T_STD_I64LE, values.data(), {values.size()});
+}
+void H5Content::add_table(const std::string& name, std::span<const double> values, std::size_t columns) {
+  put(handles_->file->get(), name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values.data(),
+      {values.size() / columns, columns});
+}
+void H5Content::add_packed_table(const std::string& name, std::span<const double> values, std::size_t columns,
+                                 int bits) {
+  std::vector<float> rounded;
+  for (const double value : values) rounded.push_back(rounded_to(static_cast<float>(value), bits));
+  put(handles_->file->get(), name, H5T_NATIVE_FLOAT, H5T_IEEE_F32LE, rounded.data(),
+      {values.size() / columns, columns}, !values.empty());
+}
+void H5Content::add_number(const std::string& name, double value) {
+  add(name, std::span<const double>(&value, 1));
+}
+void H5Content::add_number(const std::string& name, std::int64_t value) {
+  add(name, std::span<const std::int64_t>(&value, 1));
+}
+void H5Content::add_text(const std::string& name, const std::string& text) {
+  put(handles_->file->get(), name, H5T_NATIVE_UINT8, H5T_STD_U8LE, text.data(), {text.size()});
+}
+
+H5Writer::H5Writer() : H5Content(std::make_unique<Handles>(h5_access_to_memory(), h5_image_name)) {}
+
+std::string H5Writer::image() const {
+  check_h5(H5Fflush(handles_->file->get(), H5F_SCOPE_GLOBAL) >= 0, "flush a file image");
+  const ssize_t size = H5Fget_file_image(handles_->file->get(), nullptr, 0);
+  check_h5(size > 0, "size a file image");
+  std::string bytes;
+  bytes.reserve(static_cast<std::size_t>(size) + h5_trailer_size);  // or the trailer doubles what it holds
+  bytes.resize(static_cast<std::size_t>(size));
+  check_h5(H5Fget_file_image(handles_->file->get(), bytes.data(), bytes.size()) == size, "copy a file image");
+  bytes += h5_trailer(h5_checksum(bytes));
+  return bytes;
+}
+void H5Writer::save(const std::filesystem::path& file) const { replace_file(file, image()); }
+void H5Writer::save_keeping(const std::filesystem::path& file, const std::filesystem::path& previous) const {
+  replace_file_keeping(file, previous, image());
+}
+
+H5FileWriter::H5FileWriter(const std::filesystem::path& file) : H5Content(nullptr), aside_(file) {
+  handles_ = std::make_unique<Handles>(h5_access_to_disk(), aside_.path().c_str());
+}
+H5FileWriter::~H5FileWriter() = default;
+
+void H5FileWriter::begin_table(const std::string& name, std::span<const double> values, std::size_t rows,
+                               std::size_t columns) {
+  put(handles_->file->get(), name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values.data(), {rows, columns}, false,
+      values.size() / columns);
+}
+
+void H5FileWriter::add_rows(const std::string& name, std::size_t first_row, std::span<const double> values) {
+  const H5Id set(H5Dopen2(handles_->file->get(), name.c_str(), H5P_DEFAULT), H5Dclose);
+  check_h5(set.valid(), "open a dataset");
+  const H5Id space(H5Dget_space(set.get()), H5Sclose);
+  hsize_t shape[2] = {};
+  check_h5(H5Sget_simple_extent_dims(space.get(), shape, nullptr) == 2, "open a table");
+  write_rows(set.get(), H5T_NATIVE_DOUBLE, values.data(), first_row, values.size() / shape[1]);
+}
+
+template <class T>
+void H5FileWriter::begin_array(const std::string& name, std::size_t count) {
+  static_assert(std::endian::native == std::endian::little);
+  const H5Id set = create_set(handles_->file->get(), name, file_type_of<T>(), {count}, false);
+  places_.push_back(0);
+  if (count == 0) return;
+  // HDF5 finds room for an array when its first number is written.
+  const H5Id space(H5Dget_space(set.get()), H5Sclose);
+  const hsize_t start[] = {0}, one[] = {1};
+  const H5Id memory(H5Screate_simple(1, one, nullptr), H5Sclose);
+  const T zero{};
+  check_h5(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start, nullptr, one, nullptr) >= 0 &&
+               H5Dwrite(set.get(), file_type_of<T>(), memory.get(), space.get(), H5P_DEFAULT, &zero) >= 0,
+           "begin an array");
+  const haddr_t place = H5Dget_offset(set.get());
+  check_h5(place != HADDR_UNDEF, "find room for an array");
+  places_.back() = place;
+}
+template void H5FileWriter::begin_array<double>(const std::string&, std::size_t);
+template void H5FileWriter::begin_array<float>(const std::string&, std::size_t);
+template void H5FileWriter::begin_array<std::int32_t>(const std::string&, std::size_t);
+template void H5FileWriter::begin_array<std::int64_t>(const std::string&, std::size_t);
+
+std::vector<std::uint64_t> H5FileWriter::end_content() {
+  if (!handles_->file->end()) throw IoError(aside_.path().string() + ": HDF5 could not write it");
+  ended_ = true;
+  return std::exchange(places_, {});
+}
+
+void H5FileWriter::close() {
+  if (!ended_) (void)end_content();
+  append_checksum(aside_.path());
+}
+void H5FileWriter::save() {
+  close();
+  aside_.take_the_place();
+}
+void H5FileWriter::save_keeping(const std::filesystem::path& previous) {
+  close();
+  aside_.take_the_place_keeping(previous);
+}
+
+}  // namespace drumlin

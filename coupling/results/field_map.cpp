@@ -1,0 +1,54 @@
+#include "coupling/results/field_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "coupling/common/errors.hpp"
+
+namespace drumlin {
+namespace {
+
+constexpr const char* name_letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+
+bool holds_infinity(const std::vector<double>& values) {
+  return std::any_of(values.begin(), values.end(), [](double value) { return std::isinf(value); });
+}
+
+}  // namespace
+
+const MapField* FieldMap::find(const std::string& name) const {
+  for (const MapField& candidate : fields)
+    if (candidate.name == name) return &candidate;
+  return nullptr;
+}
+
+const MapField& FieldMap::field(const std::string& name) const {
+  if (const MapField* found = find(name)) return *found;
+  throw InputError("the maps have no field " + name);
+}
+
+std::string fault_of(const FieldMap& map) {
+  const MapGrid& grid = map.grid;
+  if (grid.nodes() == 0) return "the grid has no nodes";
+  for (double spacing : {grid.spacing_x, grid.spacing_z})
+    if (!(spacing > 0) || !std::isfinite(spacing))
+      return fmt::format("the grid has a spacing of {}", spacing);
+  if (!std::isfinite(grid.x_first) || !std::isfinite(grid.z_first)) return "the grid begins nowhere";
+  std::set<std::string> names;
+  for (const MapField& field : map.fields) {
+    if (field.name.empty() || field.name.find_first_not_of(name_letters) != std::string::npos)
+      return fmt::format("\"{}\" cannot name a field: letters, digits and _ can", field.name);
+    if (!names.insert(field.name).second) return fmt::format("{} stands twice", field.name);
+    if (field.value.size() != grid.nodes() || (!field.ci99.empty() && field.ci99.size() != grid.nodes()))
+      return fmt::format("{} has another length than the {} x {} nodes of the grid", field.name, grid.rows,
+                         grid.columns);
+    if (holds_infinity(field.value) || holds_infinity(field.ci99))
+      return fmt::format("{} holds an infinite number", field.name);
+  }
+  return fault_of(map.header);
+}
+
+}  // namespace drumlin
