@@ -31,34 +31,42 @@ Vec2 body_force(const FlowProblem& problem, double theta, const dealii::Point<2>
 
 void add_point_residual(const CellShapes& s, unsigned int q, const PointValues& at, const PlaneTensor& stress,
                         Vec2 force, double JxW, dealii::Vector<double>& residual) {
-  for (unsigned int i = 0; i < s.n; ++i) {
-    const auto k = q * s.n + i;
-    if (s.component[i] == pressure_component)
-      residual[i] -= s.value[k] * at.divergence * JxW;
-    else if (moves(s.component[i]))
-      residual[i] += (contraction(stress, s.rate[k]) - at.p * s.divergence[k] -
-                      (s.component[i] == 0 ? force.x : force.z) * s.value[k]) *
-                     JxW;
+  const CellShapes::Point& shape = s.points[q];
+  for (unsigned int a = 0; a < s.nodes; ++a) {
+    residual[s.velocity[0][a]] +=
+        ((stress.xx - at.p) * shape.x[a] + stress.xz * shape.z[a] - force.x * shape.value[a]) * JxW;
+    residual[s.velocity[1][a]] +=
+        (stress.xz * shape.x[a] + (stress.zz - at.p) * shape.z[a] - force.z * shape.value[a]) * JxW;
   }
+  for (unsigned int b = 0; b < s.corners; ++b)
+    residual[s.pressure[b]] -= shape.linear[b] * at.divergence * JxW;
 }
 
+// What velocities do to the forces goes to a place of its own, where loops over functions are loops over
+// neighbours in memory.
 template <class Response>
 void add_point_tangent(const CellShapes& s, unsigned int q, const Response& response, double JxW,
-                       dealii::FullMatrix<double>& matrix) {
-  for (unsigned int j = 0; j < s.n; ++j) {
-    const auto kj = q * s.n + j;
-    if (s.component[j] == pressure_component) {
-      const PlaneTensor by_p = response.by_pressure;
-      for (unsigned int i = 0; i < s.n; ++i)
-        if (moves(s.component[i])) {
-          const auto ki = q * s.n + i;
-          matrix(i, j) += s.value[kj] * (contraction(by_p, s.rate[ki]) - s.divergence[ki]) * JxW;
-          matrix(j, i) -= s.value[kj] * s.divergence[ki] * JxW;
-        }
-    } else if (moves(s.component[j])) {
-      const PlaneTensor d_stress = JxW * tangent(response, s.rate[kj]);
-      for (unsigned int i = 0; i < s.n; ++i)
-        if (moves(s.component[i])) matrix(i, j) += contraction(d_stress, s.rate[q * s.n + i]);
+                       VelocityTangent& by_velocity, dealii::FullMatrix<double>& matrix) {
+  const CellShapes::Point& shape = s.points[q];
+  for (unsigned int c = 0; c < 2; ++c)
+    for (unsigned int b = 0; b < s.nodes; ++b) {
+      const PlaneTensor stress = JxW * tangent(response, shape.rate(c, b));
+      auto& [x, z] = by_velocity[c][b];
+      for (unsigned int a = 0; a < s.nodes; ++a) {
+        x[a] += stress.xx * shape.x[a] + stress.xz * shape.z[a];
+        z[a] += stress.xz * shape.x[a] + stress.zz * shape.z[a];
+      }
+    }
+  const PlaneTensor by_p = response.by_pressure;
+  for (unsigned int b = 0; b < s.corners; ++b) {
+    const unsigned int j = s.pressure[b];
+    const double here = shape.linear[b] * JxW;
+    for (unsigned int a = 0; a < s.nodes; ++a) {
+      const unsigned int i_x = s.velocity[0][a], i_z = s.velocity[1][a];
+      matrix(i_x, j) += here * ((by_p.xx - 1) * shape.x[a] + by_p.xz * shape.z[a]);
+      matrix(i_z, j) += here * (by_p.xz * shape.x[a] + (by_p.zz - 1) * shape.z[a]);
+      matrix(j, i_x) -= here * shape.x[a];
+      matrix(j, i_z) -= here * shape.z[a];
     }
   }
 }
@@ -138,9 +146,8 @@ void add_side(const Discretisation& d, const BoundaryCondition& condition, const
 
 // Takes nu times the acceleration of the material off the force; the unknown's frame does not matter.
 void add_inertia(const FlowProblem& problem, const InertiaSetting& inertia, const CellShapes& s,
-                 unsigned int q, const dealii::Point<2>& x, double JxW, const dealii::Vector<double>& local,
-                 const dealii::Vector<double>& before, Vec2& force, dealii::FullMatrix<double>* matrix) {
-  PointMotion at = point_motion(s, q, local);
+                 unsigned int q, const dealii::Point<2>& x, double JxW, PointMotion at,
+                 const dealii::Vector<double>& before, Vec2& force, VelocityTangent* tangent) {
   const double per_time = inertia.time_step > 0 ? problem.density / inertia.time_step : 0;
   if (per_time > 0) {
     const PointMotion was = point_motion(s, q, before);
@@ -158,22 +165,20 @@ void add_inertia(const FlowProblem& problem, const InertiaSetting& inertia, cons
   const double density = inertia.share * problem.density;
   force.x -= density * convective.x;
   force.z -= density * convective.z;
-  if (matrix) add_inertia_tangent(s, q, at, density, per_time, JxW, *matrix);
+  if (tangent) add_inertia_tangent(s, q, at, density, per_time, JxW, *tangent);
 }
 
 // Takes what holds the velocity along x off the force.
 void add_hold(const FlowProblem& problem, const CellShapes& s, unsigned int q, const dealii::Point<2>& x,
-              double JxW, const dealii::Vector<double>& local, Vec2& force,
-              dealii::FullMatrix<double>* matrix) {
+              double JxW, const PointMotion& at, Vec2& force, VelocityTangent* tangent) {
   const Hold hold = problem.held({x[0], x[1]});
   if (hold.stiffness == 0) return;
-  const double u = point_motion(s, q, local).u[0] + frame_velocity_at(problem, x).x;
-  force.x -= hold.stiffness * (u - hold.velocity);
-  if (!matrix) return;
-  const auto along = [&](unsigned int i) { return s.component[i] == 0 ? s.value[q * s.n + i] : 0; };
-  for (unsigned int i = 0; i < s.n; ++i)
-    if (along(i) != 0)
-      for (unsigned int j = 0; j < s.n; ++j) (*matrix)(i, j) += hold.stiffness * along(i) * along(j) * JxW;
+  force.x -= hold.stiffness * (at.u[0] + frame_velocity_at(problem, x).x - hold.velocity);
+  if (!tangent) return;
+  const auto& value = s.points[q].value;
+  for (unsigned int b = 0; b < s.nodes; ++b)
+    for (unsigned int a = 0; a < s.nodes; ++a)
+      (*tangent)[0][b][0][a] += hold.stiffness * value[a] * value[b] * JxW;
 }
 
 /// What one cell after the other adds to the residual and to the tangent, in its own numbering.
@@ -212,7 +217,9 @@ class CellSystem {
     if (before_.size() > 0) cell->get_dof_values(*setting_.inertia->before, before_);
     contribution.residual = 0;
     contribution.tangent = 0;
+    by_velocity_ = {};
     for (const unsigned int q : fe_.quadrature_point_indices()) add_point(q, point + q);
+    if (with_tangent_) take_over_velocities();
     for (const unsigned int f : cell->face_indices())
       if (cell->face(f)->at_boundary()) add_face(cell, f);
   }
@@ -220,22 +227,33 @@ class CellSystem {
   CellContribution contribution;
 
  private:
+  void take_over_velocities() {
+    for (unsigned int c = 0; c < 2; ++c)
+      for (unsigned int b = 0; b < shapes_.nodes; ++b)
+        for (unsigned int of = 0; of < 2; ++of)
+          for (unsigned int a = 0; a < shapes_.nodes; ++a)
+            contribution.tangent(shapes_.velocity[of][a], shapes_.velocity[c][b]) +=
+                by_velocity_[c][b][of][a];
+  }
+
   void add_point(unsigned int q, std::size_t point) {
-    dealii::FullMatrix<double>* tangent = with_tangent_ ? &contribution.tangent : nullptr;
+    VelocityTangent* by_velocity = with_tangent_ ? &by_velocity_ : nullptr;
     const PointValues at = point_values(shapes_, q, local_);
     const auto response = law_(setting_.regularisation, at, state_.dual[point], point);
     Vec2 force = body_force(problem_, state_.theta, fe_.quadrature_point(q));
     if (setting_.inertia)
-      add_inertia(problem_, *setting_.inertia, shapes_, q, fe_.quadrature_point(q), fe_.JxW(q), local_,
-                  before_, force, tangent);
+      add_inertia(problem_, *setting_.inertia, shapes_, q, fe_.quadrature_point(q), fe_.JxW(q), at.motion,
+                  before_, force, by_velocity);
     if (problem_.held)
-      add_hold(problem_, shapes_, q, fe_.quadrature_point(q), fe_.JxW(q), local_, force, tangent);
+      add_hold(problem_, shapes_, q, fe_.quadrature_point(q), fe_.JxW(q), at.motion, force, by_velocity);
     add_point_residual(shapes_, q, at, response.stress, force, fe_.JxW(q), contribution.residual);
-    if (tangent) add_point_tangent(shapes_, q, response, fe_.JxW(q), *tangent);
+    if (with_tangent_)
+      add_point_tangent(shapes_, q, response, fe_.JxW(q), by_velocity_, contribution.tangent);
     if constexpr (requires { response.balance; }) {
       const double amplitude = problem_.threshold_fluidity->amplitude;
       add_fluidity_residual(shapes_, q, at, amplitude, response.balance, fe_.JxW(q), contribution.residual);
-      if (tangent) add_fluidity_tangent(shapes_, q, at, amplitude, response, fe_.JxW(q), *tangent);
+      if (with_tangent_)
+        add_fluidity_tangent(shapes_, q, at, amplitude, response, fe_.JxW(q), contribution.tangent);
     }
   }
 
@@ -257,6 +275,7 @@ class CellSystem {
   FEValues<2> fe_;
   dealii::FEFaceValues<2> face_;
   CellShapes shapes_;
+  VelocityTangent by_velocity_;  // of this cell
   dealii::Vector<double> local_, before_;
 };
 
@@ -374,12 +393,16 @@ std::vector<PlaneTensor> dual_of(const Discretisation& d, const Regularisation& 
 
 std::vector<PlaneTensor> advanced_dual(const Discretisation& d, const Regularisation& r, const State& state,
                                        const FieldVector& step) {
-  std::vector<PlaneTensor> D, next;
-  D.reserve(state.dual.size());
+  std::vector<PlaneTensor> next;
   next.reserve(state.dual.size());
-  for_each_point(d, state.solution, [&](const PointValues& at, std::size_t) { D.push_back(at.D); });
-  for_each_point(d, step, [&](const PointValues& change, std::size_t k) {
-    next.push_back(continuum::advanced_dual(D[k], change.D, state.dual[k], regularised_rate(D[k], r)));
+  dealii::Vector<double> local(d.elements.n_dofs_per_cell()), change(local.size());
+  for_each_cell(d, [&](const CellShapes& shapes, const auto& cell, std::size_t first) {
+    cell->get_dof_values(state.solution, local);
+    cell->get_dof_values(step, change);
+    for (unsigned int q = 0; q < shapes.points.size(); ++q) {
+      const PlaneTensor D = point_values(shapes, q, local).D, dD = point_values(shapes, q, change).D;
+      next.push_back(continuum::advanced_dual(D, dD, state.dual[first + q], regularised_rate(D, r)));
+    }
   });
   return next;
 }

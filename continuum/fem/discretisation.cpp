@@ -234,7 +234,7 @@ void Discretisation::execute_refinement(const FlowProblem& problem, FieldVector&
   solution.update_ghost_values();
   transfer.prepare_for_coarsening_and_refinement(solution);
   mesh.execute_coarsening_and_refinement();
-  undisturbed_.reset();
+  undisturbed_.clear();
   distribute_unknowns(problem);
   solution = field();
   transfer.interpolate(solution);
@@ -258,17 +258,18 @@ void Discretisation::place_cells() {
     mapping.initialize(quadratic, mesh);
     return;
   }
-  if (!undisturbed_) {
-    undisturbed_ = std::make_unique<dealii::MappingQCache<2>>(2);
-    undisturbed_->initialize(quadratic, mesh);
+  if (undisturbed_.empty()) {
+    const std::vector<dealii::Point<2>> places = dealii::FE_Q<2>(2).get_unit_support_points();
+    mapping.initialize(quadratic, mesh);
+    for (const auto& cell : mesh.cell_iterators())
+      for (const auto& unit : places)
+        undisturbed_[cell->id()].push_back(mapping.transform_unit_to_real_cell(cell, unit));
   }
-  const std::vector<dealii::Point<2>> places = dealii::FE_Q<2>(2).get_unit_support_points();
   mapping.initialize(mesh, [&](const dealii::Triangulation<2>::cell_iterator& cell) {
-    std::vector<dealii::Point<2>> points;
-    for (const auto& unit : places) {
-      const auto x = undisturbed_->transform_unit_to_real_cell(cell, unit);
+    std::vector<dealii::Point<2>> points = undisturbed_.at(cell->id());
+    for (auto& x : points) {
       const Vec2 to = displaced(*surface, {x[0], x[1]});
-      points.emplace_back(to.x, to.z);
+      x = {to.x, to.z};
     }
     return points;
   });

@@ -113,10 +113,11 @@ std::shared_ptr<fem::SolvedLevel> coarsest_level(const FlowProblem& problem, con
   return level;
 }
 
-// Memory settled as far as a flow needs that will change once more.
-FlowSolverOptions loosely_settled(FlowSolverOptions options) {
+// Solved as far as a flow needs whose surface will move.
+FlowSolverOptions loosely_solved(const FlowProblem& problem, FlowSolverOptions options) {
   options.picard_tolerance = std::max(options.picard_tolerance, options.loose_picard_tolerance);
-  options.tolerance = std::max(options.tolerance, options.loose_tolerance);
+  options.tolerance =
+      std::max(options.tolerance, problem.memory ? options.loose_memory_tolerance : options.loose_tolerance);
   return options;
 }
 
@@ -170,12 +171,12 @@ class Continuation {
   bool solve_mesh(int mesh, const std::string& start) {
     FlowSolverOptions here = options_;
     if (!is_last(mesh)) here.tolerance = std::max(options_.tolerance, options_.coarse_tolerance);
-    // What settles now is settled again with the surface in its place.
-    if (problem_.memory && problem_.moving_surface) here = loosely_settled(here);
+    const FlowSolverOptions whole = here;
+    if (problem_.moving_surface) here = loosely_solved(problem_, here);
     Newton newton(problem_, here, discretisation(), mesh, begun_, clock_, report_, observer_);
     level_->state.held = nullptr;
     if (problem_.memory && start != "cold" && solve_remembering(newton, start, here))
-      return !problem_.moving_surface || move_surface(mesh, here);
+      return !problem_.moving_surface || move_surface(mesh, whole, here);
     if (!(start == "cold" ? solve_cold(newton, here, *level_)
                           : solve_from(start, newton, here, *level_, /*starts_nearby=*/true)))
       return false;
@@ -184,7 +185,7 @@ class Continuation {
         clock_(Work::evaluation, [&] { observer_.solved_plain(field_of(level_)); });
       if (!solve_held_fields(newton, here, *level_, report_)) return false;
     }
-    return !problem_.moving_surface || move_surface(mesh, here);
+    return !problem_.moving_surface || move_surface(mesh, whole, here);
   }
 
   // From a flow nearby what the material remembers is at hand: it follows from that flow. The state is as it
@@ -206,15 +207,11 @@ class Continuation {
     return false;
   }
 
-  bool move_surface(int mesh, FlowSolverOptions here) {
+  bool move_surface(int mesh, const FlowSolverOptions& whole, const FlowSolverOptions& loose) {
     report_.failure.clear();
     // On a coarser mesh memory is but a start for the next.
-    const bool whole = is_last(mesh) || !problem_.memory;
-    const FlowSolverOptions loose = here;
-    if (whole) {
-      here.picard_tolerance = options_.picard_tolerance;
-      here.tolerance = is_last(mesh) ? options_.tolerance : here.tolerance;
-    }
+    const bool loosely = problem_.memory && !is_last(mesh);
+    const FlowSolverOptions& here = loosely ? loose : whole;
     const fem::SurfaceSolver solver{
         .newton =
             [&] {
@@ -228,11 +225,11 @@ class Continuation {
               return solve_from("surface", again, how, *level_) &&
                      (!fem::holds_fields(problem_) || solve_held_fields(again, how, *level_, report_));
             },
-        .first = problem_.memory && is_last(mesh) ? fem::Settling::loose : fem::Settling::whole,
+        .first = loosely ? fem::Settling::whole : fem::Settling::loose,
         .stepped = observer_.surface_step,
         .tolerance = is_last(mesh) ? 0 : options_.coarse_surface_tolerance};
     // A coarser mesh whose ends are resolved too badly to converge is still a start for the next.
-    return fem::solve_surface(solver, *level_, mesh, response_, report_) ||
+    return fem::solve_surface(solver, *level_, mesh, report_) ||
            (!is_last(mesh) && report_.failure != "interrupted");
   }
 
@@ -257,7 +254,6 @@ class Continuation {
   std::shared_ptr<fem::SolvedLevel> level_;
   FlowReport report_;
   WorkClock clock_;
-  dealii::FullMatrix<double> response_;  // of the misfit of a moving surface to its shape, mesh after mesh
 };
 
 FlowSolution solve(const FlowProblem& problem, const FlowSolverOptions& options, const FlowObserver& observer,

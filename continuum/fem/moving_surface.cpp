@@ -93,7 +93,7 @@ SurfaceMisfit surface_misfit(const FlowProblem& problem, const Discretisation& d
   return misfit;
 }
 
-dealii::FullMatrix<double> surface_response(Newton& newton, SolvedLevel& level) {
+SurfaceResponse surface_response(Newton& newton, SolvedLevel& level) {
   // Small beyond the law's sensitivity (1 % of stress is a factor of two of shear rate), large beyond
   // rounding.
   constexpr double difference = 1e-5;
@@ -105,19 +105,25 @@ dealii::FullMatrix<double> surface_response(Newton& newton, SolvedLevel& level) 
     State state = level.state;
     d.constraints.distribute(state.solution);
     state.solution.update_ghost_values();
-    return surface_misfit(level.problem, d, newton.corrected(level.setting, state)).coefficient;
+    return newton.corrected(level.setting, state);
   };
-  newton.factorise();
-  const std::vector<double> before = after(shape);
-  dealii::FullMatrix<double> response(n, n);
+  newton.linearise(level.setting, level.state);
+  SurfaceResponse response{.state = after(shape), .misfit = {}, .matrix = dealii::FullMatrix<double>(n, n)};
+  response.misfit = surface_misfit(level.problem, d, response.state);
   for (std::size_t k = 0; k < n; ++k) {
     SurfaceShape changed = shape;
     changed.coefficient[first + k] += difference;
     restrain(changed, slope_half_length(level.problem));
-    const std::vector<double> here = after(changed);
-    for (std::size_t i = 0; i < n; ++i) response(i, k) = (here[first + i] - before[first + i]) / difference;
+    State here = after(changed);
+    const SurfaceMisfit misfit = surface_misfit(level.problem, d, here);
+    for (std::size_t i = 0; i < n; ++i)
+      response.matrix(i, k) =
+          (misfit.coefficient[first + i] - response.misfit.coefficient[first + i]) / difference;
+    here.solution.sadd(1 / difference, -1 / difference, response.state.solution);
+    response.of_flow.push_back(std::move(here.solution));
+    response.of_theta.push_back((here.theta - response.state.theta) / difference);
   }
-  after(shape);
+  if (!d.move_surface(level.problem, shape)) throw std::logic_error("a cell that was valid no more is");
   return response;
 }
 

@@ -55,25 +55,35 @@ State Newton::without_moment(const State& state) const {
 }
 
 // The slope is one more unknown, its equation (the moment) linear in the solution: two solves with one
-// matrix.
+// matrix, one of them in factorise().
 Newton::Step Newton::step_with_factors(const State& state) {
   Step step{.solution = d_.field()};
   FieldVector rhs = system_.residual;
   rhs *= -1;
-  step.linear_residual = solved(rhs, step.solution);
+  step.linear_residual = std::max(response_error_, solved(rhs, step.solution));
   d_.homogeneous.distribute(step.solution);
-  if (std::holds_alternative<SlopeFromMoment>(problem_.slope)) {
-    const FieldVector by_theta =
-        load(d_, {problem_.density * std::cos(state.theta), problem_.density * std::sin(state.theta)});
-    if (!response_) response_.emplace(d_.field());
-    FieldVector& response = *response_;
-    step.linear_residual = std::max(step.linear_residual, solved(by_theta, response));
-    d_.homogeneous.distribute(response);
-    step.theta = -(moment_ * state.solution + moment_ * step.solution + frame_moment_) / (moment_ * response);
-    step.solution.add(step.theta, response);
+  if (response_) {
+    step.theta =
+        -(moment_ * state.solution + moment_ * step.solution + frame_moment_) / (moment_ * *response_);
+    step.solution.add(step.theta, *response_);
   }
   step.solution.update_ghost_values();
   return step;
+}
+
+void Newton::factorise(const State& state) {
+  clock_(Work::factorisation, [&] { factors_.factorise(system_.matrix); });
+  if (!std::holds_alternative<SlopeFromMoment>(problem_.slope)) return;
+  const FieldVector by_theta =
+      load(d_, {problem_.density * std::cos(state.theta), problem_.density * std::sin(state.theta)});
+  if (!response_) response_.emplace(d_.field());
+  response_error_ = solved(by_theta, *response_);
+  d_.homogeneous.distribute(*response_);
+}
+
+void Newton::linearise(const Setting& setting, const State& state) {
+  clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, setting, state, system_); });
+  factorise(state);
 }
 
 State Newton::corrected(const Setting& setting, const State& state) {
@@ -132,7 +142,7 @@ void Newton::settle_locally(const Phase& phase, State& state) {
 // Empty where the linear solve fails; the report says why.
 std::optional<Newton::Step> Newton::newton_step(const Phase& phase, const State& state) {
   try {
-    factorise();
+    factorise(state);
     Step step = step_with_factors(state);
     if (fluidity_) fluidity_->limit(largest_fluidity_step, step.solution);
     if (step.linear_residual <= options_.linear_tolerance) return step;

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+
+#include "coupling/common/errors.hpp"
 
 namespace drumlin::continuum::fem {
 namespace {
 
-using Response = dealii::FullMatrix<double>;
+using Response = dealii::FullMatrix<double>;  // of the misfit to the shape
 
 std::vector<double> free_part(const FlowProblem& problem, const std::vector<double>& coefficient) {
   return {coefficient.begin() + static_cast<long>(first_free(problem)), coefficient.end()};
@@ -44,12 +47,17 @@ std::vector<double> step_of(const FlowProblem& problem, const Response& response
   return step;
 }
 
-// One flow with the surface in another place. False, where cells or Newton's method fail.
+// One flow with the surface after a step, from where the response puts it. False, where cells or Newton's
+// method fail.
 bool solve_moved(const SurfaceSolver& solver, SolvedLevel& level, const SurfaceShape& shape,
-                 Settling settling) {
+                 const std::vector<double>& step, const SurfaceResponse& response, Settling settling) {
   auto& d = *level.discretisation;
   if (!d.move_surface(level.problem, shape)) return false;
   d.rebuild_pattern();
+  for (std::size_t k = 0; k < step.size(); ++k) {
+    level.state.solution.add(step[k], response.of_flow[k]);
+    level.state.theta += step[k] * response.of_theta[k];
+  }
   d.constraints.distribute(level.state.solution);
   level.state.solution.update_ghost_values();
   return solver.solve(*solver.newton(), settling);
@@ -57,12 +65,10 @@ bool solve_moved(const SurfaceSolver& solver, SolvedLevel& level, const SurfaceS
 
 class Iteration {
  public:
-  Iteration(const SurfaceSolver& solver, SolvedLevel& level, int mesh, Response& response, FlowReport& report,
-            double tolerance)
+  Iteration(const SurfaceSolver& solver, SolvedLevel& level, int mesh, FlowReport& report, double tolerance)
       : solver_(solver),
         level_(level),
         mesh_(mesh),
-        response_(response),
         report_(report),
         tolerance_(tolerance),
         settling_(solver.first),
@@ -75,13 +81,15 @@ class Iteration {
   // One step that lessens the misfit, or settles what presses little enough; false if none is found.
   bool step() {
     if (now_.resolved <= tolerance_) return settle(Settling::whole);
-    if (response_.m() > 0 && try_step(1)) return true;
+    if (response_ && try_step(1)) return true;
     if (interrupted() || !form_response()) return false;
     for (double share = 1; share > 0.05; share *= 0.5) {
       if (try_step(share)) return true;
       if (interrupted()) return false;
     }
-    return level_.problem.memory && settling_ != Settling::fine && settle(Settling::fine);
+    response_.reset();
+    if (level_.problem.memory) return settling_ != Settling::fine && settle(Settling::fine);
+    return settling_ == Settling::loose && settle(Settling::whole);
   }
 
  private:
@@ -100,9 +108,14 @@ class Iteration {
   }
 
   bool form_response() {
-    const auto newton = solver_.newton();
-    if (!solver_.solve(*newton, settling_)) return false;
-    response_ = surface_response(*newton, level_);
+    try {
+      response_ = surface_response(*solver_.newton(), level_);
+    } catch (const NotConvergedError& error) {
+      report_.failure = error.what();
+      return false;
+    }
+    level_.state = response_->state;
+    now_ = response_->misfit;
     return true;
   }
 
@@ -119,18 +132,20 @@ class Iteration {
     const SurfaceShape shape = level_.discretisation->surface.value();
     const State before = level_.state;
     const int iterations = report_.iterations;
-    std::vector<double> step = step_of(problem, response_, now_, largest);
+    std::vector<double> step = step_of(problem, response_->matrix, now_, largest);
     for (double& s : step) s *= share;
-    if (solve_moved(solver_, level_, changed(problem, shape, step), settling_)) {
+    const Settling settling = problem.memory ? settling_ : Settling::whole;
+    if (solve_moved(solver_, level_, changed(problem, shape, step), step, *response_, settling)) {
       const SurfaceMisfit next = misfit();
       if (lessens(next)) {
         std::vector<double> answer = free_part(problem, next.coefficient);
         for (std::size_t i = 0; i < answer.size(); ++i)
           answer[i] -= now_.coefficient[first_free(problem) + i];
-        correct(response_, step, answer);
+        correct(response_->matrix, step, answer);
         // One that explains so little is none to go on with.
-        if (next.resolved > 0.5 * now_.resolved) response_.reinit(0, 0);
+        if (next.resolved > 0.5 * now_.resolved) response_.reset();
         now_ = next;
+        settling_ = settling;
         record(share, report_.iterations - iterations);
         return true;
       }
@@ -152,20 +167,19 @@ class Iteration {
   const SurfaceSolver& solver_;
   SolvedLevel& level_;
   int mesh_;
-  Response& response_;
   FlowReport& report_;
   double tolerance_;
   Settling settling_;  // of the state
   SurfaceMisfit now_;
+  std::optional<SurfaceResponse> response_;
 };
 
 }  // namespace
 
-bool solve_surface(const SurfaceSolver& solver, SolvedLevel& level, int mesh, Response& response,
-                   FlowReport& report) {
+bool solve_surface(const SurfaceSolver& solver, SolvedLevel& level, int mesh, FlowReport& report) {
   const MovingSurface& effect = level.problem.moving_surface.value();
   const double tolerance = std::max(solver.tolerance, effect.tolerance);
-  Iteration iteration(solver, level, mesh, response, report, tolerance);
+  Iteration iteration(solver, level, mesh, report, tolerance);
   for (int step = 0; !iteration.done(); ++step) {
     const std::string state =
         fmt::format("moving surface, mesh {}: {:.3g} d (rms) still press on it after {} steps", mesh,

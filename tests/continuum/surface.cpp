@@ -114,7 +114,8 @@ TEST(MovingSurface, StartsWhereThatOfANeighbourIs) {
   const FlowProblem problem = small_drum_with_surface(2);
   const FlowField first = converged(problem, one_mesh());
   const FlowSolution again = ended(solve_flow_from(first.state(), problem, one_mesh()));
-  EXPECT_EQ(again.report.surface_steps.size(), 1u);  // nothing is left to move
+  for (const SurfaceStepReport& step : again.report.surface_steps)
+    EXPECT_EQ(step.share, 0);  // nothing is left to move
   EXPECT_NEAR(again.field.theta(), first.theta(), 1e-9);
   // A flow that holds its surface takes the numbers and none of the shape.
   FlowProblem held = problem;

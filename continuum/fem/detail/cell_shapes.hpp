@@ -10,41 +10,76 @@
 
 namespace drumlin::continuum::fem {
 
-// Shape functions of one cell in the form that the integrals use. Q2-Q1 is primitive: each shape function has
-// one component.
+/// Shape functions of one cell, of Q2-Q1 and the fluidity's Q1: each unknown has one component, and the
+/// components of the velocity have the same functions, as have pressure and fluidity.
 struct CellShapes {
-  unsigned int n = 0;
-  std::vector<unsigned int> component;
-  std::vector<PlaneTensor> rate;             // symmetric gradient, n per point
-  std::vector<double> divergence;            // n per point
-  std::vector<double> value;                 // n per point
-  std::vector<std::array<double, 2>> slope;  // n per point, of the fluidity's; empty without it
+  static constexpr unsigned int nodes = 9, corners = 4;
+  struct Point {
+    std::array<double, nodes> value, x, z;             // Q2 and its gradient
+    std::array<double, corners> linear;                // Q1
+    std::array<std::array<double, 2>, corners> slope;  // its gradient, where there is a fluidity
+    /// Strain rate of a velocity along `c` with function a.
+    PlaneTensor rate(unsigned int c, unsigned int a) const {
+      return c == 0 ? PlaneTensor{x[a], 0, 0.5 * z[a]} : PlaneTensor{0, z[a], 0.5 * x[a]};
+    }
+  };
+  unsigned int n = 0;                   // unknowns
+  std::vector<unsigned int> component;  // of each
+  // Unknowns by component, in the order of their functions.
+  std::array<std::array<unsigned int, nodes>, 2> velocity;
+  std::array<unsigned int, corners> pressure;
+  std::array<unsigned int, corners> fluidity;
+  bool has_fluidity;
+  std::vector<Point> points;
 
-  explicit CellShapes(const Discretisation& d) : n(d.elements.n_dofs_per_cell()), component(n) {
-    for (unsigned int i = 0; i < n; ++i) component[i] = d.elements.system_to_component_index(i).first;
-    rate.resize(n * d.quadrature.size());
-    divergence.resize(rate.size());
-    value.resize(rate.size());
-    if (d.has_fluidity()) slope.resize(rate.size());
+  explicit CellShapes(const Discretisation& d)
+      : n(d.elements.n_dofs_per_cell()),
+        component(n),
+        has_fluidity(d.has_fluidity()),
+        points(d.quadrature.size()) {
+    for (unsigned int i = 0; i < n; ++i) {
+      const auto [c, of_element] = d.elements.system_to_component_index(i);
+      component[i] = c;
+      if (moves(c))
+        velocity[c][of_element] = i;
+      else if (c == pressure_component)
+        pressure[of_element] = i;
+      else
+        fluidity[of_element] = i;
+    }
   }
   void reinit(const dealii::FEValues<2>& fe) {
-    for (const unsigned int q : fe.quadrature_point_indices())
-      for (unsigned int i = 0; i < n; ++i) {
-        const auto k = q * n + i;
-        value[k] = fe.shape_value(i, q);
-        if (component[i] == pressure_component) continue;
-        const auto g = fe.shape_grad(i, q);
-        if (component[i] == fluidity_component) {
-          slope[k] = {g[0], g[1]};
-          continue;
-        }
-        rate[k] = component[i] == 0 ? PlaneTensor{g[0], 0, 0.5 * g[1]} : PlaneTensor{0, g[1], 0.5 * g[0]};
-        divergence[k] = g[component[i]];
+    for (const unsigned int q : fe.quadrature_point_indices()) {
+      Point& at = points[q];
+      for (unsigned int a = 0; a < nodes; ++a) {
+        at.value[a] = fe.shape_value(velocity[0][a], q);
+        const auto& g = fe.shape_grad(velocity[0][a], q);
+        at.x[a] = g[0];
+        at.z[a] = g[1];
       }
+      for (unsigned int b = 0; b < corners; ++b) at.linear[b] = fe.shape_value(pressure[b], q);
+      if (has_fluidity)
+        for (unsigned int b = 0; b < corners; ++b) {
+          const auto& g = fe.shape_grad(fluidity[b], q);
+          at.slope[b] = {g[0], g[1]};
+        }
+    }
   }
 };
 
+/// What velocities do to the forces on velocities: [component][function of the velocity][component of the
+/// force][its function].
+using VelocityTangent =
+    std::array<std::array<std::array<std::array<double, CellShapes::nodes>, 2>, CellShapes::nodes>, 2>;
+
+/// Velocity and its gradient at a point.
+struct PointMotion {
+  std::array<double, 2> u{};
+  std::array<std::array<double, 2>, 2> gradient{};  ///< [component][direction]
+};
+
 struct PointValues {
+  PointMotion motion = {};
   PlaneTensor D;
   double divergence = 0;
   double p = 0;
@@ -52,39 +87,62 @@ struct PointValues {
   std::array<double, 2> fluidity_slope{};  ///< its gradient
 };
 
-inline PointValues point_values(const CellShapes& s, unsigned int q, const dealii::Vector<double>& local) {
-  PointValues at;
-  for (unsigned int i = 0; i < s.n; ++i) {
-    const auto k = q * s.n + i;
-    if (s.component[i] == pressure_component) {
-      at.p += local[i] * s.value[k];
-    } else if (s.component[i] == fluidity_component) {
-      at.ln_fluidity += local[i] * s.value[k];
-      at.fluidity_slope[0] += local[i] * s.slope[k][0];
-      at.fluidity_slope[1] += local[i] * s.slope[k][1];
-    } else {
-      at.D = at.D + local[i] * s.rate[k];
-      at.divergence += local[i] * s.divergence[k];
+inline PointMotion point_motion(const CellShapes& s, unsigned int q, const dealii::Vector<double>& local) {
+  const CellShapes::Point& shape = s.points[q];
+  PointMotion at;
+  for (unsigned int c = 0; c < 2; ++c)
+    for (unsigned int a = 0; a < s.nodes; ++a) {
+      const double here = local[s.velocity[c][a]];
+      at.u[c] += here * shape.value[a];
+      at.gradient[c][0] += here * shape.x[a];
+      at.gradient[c][1] += here * shape.z[a];
     }
-  }
   return at;
 }
 
-/// Calls visit(values, point) at every quadrature point of this rank's cells, `point` counting them.
+inline PointValues point_values(const CellShapes& s, unsigned int q, const dealii::Vector<double>& local) {
+  const CellShapes::Point& shape = s.points[q];
+  PointValues at;
+  at.motion = point_motion(s, q, local);
+  const auto& [x, z] = at.motion.gradient;
+  at.D = {x[0], z[1], 0.5 * (x[1] + z[0])};
+  at.divergence = x[0] + z[1];
+  for (unsigned int b = 0; b < s.corners; ++b) at.p += local[s.pressure[b]] * shape.linear[b];
+  if (s.has_fluidity)
+    for (unsigned int b = 0; b < s.corners; ++b) {
+      const double here = local[s.fluidity[b]];
+      at.ln_fluidity += here * shape.linear[b];
+      at.fluidity_slope[0] += here * shape.slope[b][0];
+      at.fluidity_slope[1] += here * shape.slope[b][1];
+    }
+  return at;
+}
+
+/// Calls visit(shapes, cell, point) for this rank's cells, `point` the number of their first quadrature
+/// point.
 template <class Visit>
-void for_each_point(const Discretisation& d, const FieldVector& solution, Visit visit) {
+void for_each_cell(const Discretisation& d, Visit visit) {
   dealii::FEValues<2> fe(d.mapping, d.elements, d.quadrature,
                          dealii::update_values | dealii::update_gradients);
   CellShapes shapes(d);
-  dealii::Vector<double> local(shapes.n);
   std::size_t point = 0;
   for (const auto& cell : d.unknowns.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
     fe.reinit(cell);
     shapes.reinit(fe);
-    cell->get_dof_values(solution, local);
-    for (const unsigned int q : fe.quadrature_point_indices()) visit(point_values(shapes, q, local), point++);
+    visit(shapes, cell, point);
+    point += d.quadrature.size();
   }
+}
+
+/// Calls visit(values, point) at every quadrature point of this rank's cells, `point` counting them.
+template <class Visit>
+void for_each_point(const Discretisation& d, const FieldVector& solution, Visit visit) {
+  dealii::Vector<double> local(d.elements.n_dofs_per_cell());
+  for_each_cell(d, [&](const CellShapes& shapes, const auto& cell, std::size_t first) {
+    cell->get_dof_values(solution, local);
+    for (unsigned int q = 0; q < shapes.points.size(); ++q) visit(point_values(shapes, q, local), first + q);
+  });
 }
 
 }  // namespace drumlin::continuum::fem

@@ -86,7 +86,8 @@ struct Discretisation {
   void place_cells();
   bool cells_are_valid() const;
 
-  std::unique_ptr<dealii::MappingQCache<2>> undisturbed_;  ///< of this mesh, once its surface has moved
+  /// Support points of the mapping of this mesh, once its surface has moved.
+  std::map<dealii::CellId, std::vector<dealii::Point<2>>> undisturbed_;
 };
 
 /// The coarsest mesh of a domain; boundary ids are the numbers of Side.

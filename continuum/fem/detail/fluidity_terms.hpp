@@ -18,13 +18,11 @@ inline void add_fluidity_residual(const CellShapes& s, unsigned int q, const Poi
                                   double amplitude, const FluidityBalance& balance, double JxW,
                                   dealii::Vector<double>& residual) {
   const double A2 = amplitude * amplitude, steep = dot(at.fluidity_slope, at.fluidity_slope);
-  for (unsigned int i = 0; i < s.n; ++i) {
-    if (s.component[i] != fluidity_component) continue;
-    const auto k = q * s.n + i;
-    residual[i] += (A2 * (dot(at.fluidity_slope, s.slope[k]) - steep * s.value[k]) +
-                    (balance.local - balance.mu) * s.value[k]) *
-                   JxW;
-  }
+  const CellShapes::Point& shape = s.points[q];
+  for (unsigned int a = 0; a < s.corners; ++a)
+    residual[s.fluidity[a]] += (A2 * (dot(at.fluidity_slope, shape.slope[a]) - steep * shape.linear[a]) +
+                                (balance.local - balance.mu) * shape.linear[a]) *
+                               JxW;
 }
 
 /// Its derivative, and that of the stress by y.
@@ -34,21 +32,21 @@ void add_fluidity_tangent(const CellShapes& s, unsigned int q, const PointValues
                           dealii::FullMatrix<double>& matrix) {
   const double A2 = amplitude * amplitude;
   const FluidityBalance& balance = response.balance;
-  for (unsigned int i = 0; i < s.n; ++i) {
-    if (s.component[i] != fluidity_component) continue;
-    const auto ki = q * s.n + i;
-    const double w = s.value[ki] * JxW;
-    for (unsigned int j = 0; j < s.n; ++j) {
-      const auto kj = q * s.n + j;
-      if (moves(s.component[j])) {
-        matrix(i, j) += 0.5 * balance.by_rate * contraction(response.right, s.rate[kj]) * w;
-        matrix(j, i) += contraction(response.by_fluidity, s.rate[kj]) * w;
-      } else if (s.component[j] == pressure_component) {
-        matrix(i, j) += balance.by_pressure * s.value[kj] * w;
-      } else {
-        matrix(i, j) += A2 * dot(s.slope[ki], s.slope[kj]) * JxW +
-                        (balance.mu * s.value[kj] - 2 * A2 * dot(at.fluidity_slope, s.slope[kj])) * w;
+  const CellShapes::Point& shape = s.points[q];
+  for (unsigned int a = 0; a < s.corners; ++a) {
+    const unsigned int i = s.fluidity[a];
+    const double w = shape.linear[a] * JxW;
+    for (unsigned int c = 0; c < 2; ++c)
+      for (unsigned int b = 0; b < s.nodes; ++b) {
+        const unsigned int j = s.velocity[c][b];
+        matrix(i, j) += 0.5 * balance.by_rate * contraction(response.right, shape.rate(c, b)) * w;
+        matrix(j, i) += contraction(response.by_fluidity, shape.rate(c, b)) * w;
       }
+    for (unsigned int b = 0; b < s.corners; ++b) {
+      matrix(i, s.pressure[b]) += balance.by_pressure * shape.linear[b] * w;
+      matrix(i, s.fluidity[b]) +=
+          A2 * dot(shape.slope[a], shape.slope[b]) * JxW +
+          (balance.mu * shape.linear[b] - 2 * A2 * dot(at.fluidity_slope, shape.slope[b])) * w;
     }
   }
 }

@@ -1,38 +1,8 @@
 #pragma once
 // nu (du/dt + u.grad u) at a quadrature point, and its derivative. Private to fem/.
-#include <deal.II/lac/full_matrix.h>
-
-#include <array>
-
 #include "continuum/fem/detail/cell_shapes.hpp"
 
 namespace drumlin::continuum::fem {
-
-/// Velocity and its gradient at a point.
-struct PointMotion {
-  std::array<double, 2> u{};
-  std::array<std::array<double, 2>, 2> gradient{};  ///< [component][direction]
-};
-
-/// Gradient of a velocity shape function, from its strain rate.
-inline std::array<double, 2> shape_gradient(const CellShapes& s, unsigned int i, std::size_t k) {
-  const PlaneTensor& e = s.rate[k];
-  return s.component[i] == 0 ? std::array{e.xx, 2 * e.xz} : std::array{2 * e.xz, e.zz};
-}
-
-inline PointMotion point_motion(const CellShapes& s, unsigned int q, const dealii::Vector<double>& local) {
-  PointMotion at;
-  for (unsigned int i = 0; i < s.n; ++i) {
-    const unsigned int c = s.component[i];
-    if (!moves(c)) continue;
-    const auto k = q * s.n + i;
-    const auto g = shape_gradient(s, i, k);
-    at.u[c] += local[i] * s.value[k];
-    at.gradient[c][0] += local[i] * g[0];
-    at.gradient[c][1] += local[i] * g[1];
-  }
-  return at;
-}
 
 /// u.grad u.
 inline Vec2 convective_acceleration(const PointMotion& at) {
@@ -42,18 +12,20 @@ inline Vec2 convective_acceleration(const PointMotion& at) {
 
 /// Derivative of density u.grad u + per_time u.
 inline void add_inertia_tangent(const CellShapes& s, unsigned int q, const PointMotion& at, double density,
-                                double per_time, double JxW, dealii::FullMatrix<double>& matrix) {
-  for (unsigned int j = 0; j < s.n; ++j) {
-    const unsigned int cj = s.component[j];
-    if (!moves(cj)) continue;
-    const auto kj = q * s.n + j;
-    const auto g = shape_gradient(s, j, kj);
-    const double along = density * (at.u[0] * g[0] + at.u[1] * g[1]) + per_time * s.value[kj];
-    for (unsigned int i = 0; i < s.n; ++i) {
-      const unsigned int ci = s.component[i];
-      if (!moves(ci)) continue;
-      const double turn = density * at.gradient[ci][cj] * s.value[kj];
-      matrix(i, j) += (turn + (ci == cj ? along : 0)) * s.value[q * s.n + i] * JxW;
+                                double per_time, double JxW, VelocityTangent& tangent) {
+  const CellShapes::Point& shape = s.points[q];
+  for (unsigned int b = 0; b < s.nodes; ++b) {
+    const double moved = density * shape.value[b] * JxW;
+    const double along =
+        (density * (at.u[0] * shape.x[b] + at.u[1] * shape.z[b]) + per_time * shape.value[b]) * JxW;
+    for (unsigned int c = 0; c < 2; ++c) {
+      const double to_x = moved * at.gradient[0][c] + (c == 0 ? along : 0);
+      const double to_z = moved * at.gradient[1][c] + (c == 1 ? along : 0);
+      auto& [x, z] = tangent[c][b];
+      for (unsigned int a = 0; a < s.nodes; ++a) {
+        x[a] += to_x * shape.value[a];
+        z[a] += to_z * shape.value[a];
+      }
     }
   }
 }

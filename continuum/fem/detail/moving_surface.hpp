@@ -26,10 +26,19 @@ double slope_half_length(const FlowProblem&);
 /// Collective.
 SurfaceMisfit surface_misfit(const FlowProblem&, const Discretisation&, const State&);
 
-/// How the free coefficients of the misfit answer to those of the shape, when the flow follows: by
-/// differences, one linear solve for each with the tangent's factors. The level's state has to be solved;
-/// mesh and state are left as they were.
-dealii::FullMatrix<double> surface_response(Newton&, SolvedLevel&);
+/// A flow and its misfit after one step of Newton's method with the surface as it is, and their derivatives
+/// by the free coefficients of the shape when the flow follows.
+struct SurfaceResponse {
+  State state;
+  SurfaceMisfit misfit;
+  dealii::FullMatrix<double> matrix;      ///< of the free coefficients of the misfit
+  std::vector<FieldVector> of_flow = {};  ///< of velocity and pressure, for each coefficient
+  std::vector<double> of_theta = {};
+};
+
+/// By differences, one linear solve for each coefficient with the factors of the tangent. Mesh and state of
+/// the level are left as they were.
+SurfaceResponse surface_response(Newton&, SolvedLevel&);
 
 /// x of A x = b.
 std::vector<double> solution_of(dealii::FullMatrix<double> A, const std::vector<double>& b);

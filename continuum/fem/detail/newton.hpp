@@ -43,10 +43,8 @@ class Newton {
 
   /// Where it fails, the report says which iterations were in vain.
   bool solve(const Phase& phase, State& state);
-  /// Readies the tangent of the last iterate for solves.
-  void factorise() {
-    clock_(Work::factorisation, [&] { factors_.factorise(system_.matrix); });
-  }
+  /// Prepares corrected(): factors of the tangent at a state. Throws NotConvergedError where it is singular.
+  void linearise(const Setting& setting, const State& state);
   /// After one more step with these factors; the residual is of the mesh as it stands now.
   State corrected(const Setting& setting, const State& state);
   /// Whether anything settled by itself in the last solve().
@@ -63,6 +61,7 @@ class Newton {
     double linear_residual = 0;
   };
   bool iterate(const Phase& phase, State& state);
+  void factorise(const State& state);
   Step step_with_factors(const State& state);
   State without_moment(const State& state) const;
   double solved(const FieldVector& rhs, FieldVector& solution);
@@ -90,7 +89,8 @@ class Newton {
   FieldVector moment_;
   System system_;
   DirectSolver factors_;
-  std::optional<FieldVector> response_;  // of the flow to the slope, of the last step
+  std::optional<FieldVector> response_;  // of the flow to the slope, with these factors
+  double response_error_ = 0;            // true relative residual of its solve
   double frame_moment_ = 0;              // of the velocity that the unknown lacks in a rotating frame
   bool has_settled_locally_ = false;
   double weight_norm_ = 0;
