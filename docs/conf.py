@@ -13,8 +13,11 @@ sys.path.insert(0, str(BUILD / "python"))
 project = "Drumlin"
 version = release = re.search(r"project\(drumlin VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
 copyright = "the founders of Drumlin"  # pylint: disable=redefined-builtin
-extensions = ["myst_parser", "sphinx.ext.autodoc"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.mathjax"]
+myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 4
+myst_update_mathjax = False
+mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"  # Debian's MathJax 2, beside the pages: docs/build copies it
 autodoc_member_order = "bysource"
 html_theme = "furo"
 html_static_path = ["_static"]
