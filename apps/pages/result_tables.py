@@ -5,6 +5,7 @@ In a page a table stands between `<!-- table NAME -->` and `<!-- end of table --
 written anew where a table changed. With it nothing is written: the exit code is 1 if a page differs, and the first difference is printed.
 """
 
+import csv
 import json
 import math
 import pathlib
@@ -51,8 +52,8 @@ def table(head, rows):
 
 def paper_rows():
     """The paper's entries against the runs of data/bed: the cells of each."""
-    lines = (DATA / "memory/paper-table.md").read_text().splitlines()
-    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("| ") and not line.startswith("| quantity")]
+    lines = (DATA / "memory/paper-table.csv").read_text().splitlines()
+    return list(csv.reader(lines[2:]))
 
 
 def rotations():
@@ -92,13 +93,13 @@ def headline():
 
 def five_seeds():
     found = {row[0]: row[3] for row in paper_rows() if row[1] == "6"}
-    return (f"Five seeds of five turns at 6 rpm (`data/memory/paper-table.md`): H {found['H']}, lambda {found['lambda']}, shear rate {found['shear_rate']}, "
+    return (f"Five seeds of five turns at 6 rpm (`data/memory/paper-table.csv`): H {found['H']}, lambda {found['lambda']}, shear rate {found['shear_rate']}, "
             f"theta {found['theta_deg']} deg.")
 
 
 def verdicts():
     rows = paper_rows()
-    count = {word: sum(row[4].strip("*") == word for row in rows) for word in ("agrees", "open", "near", "differs", "imposed")}
+    count = {word: sum(row[4] == word for row in rows) for word in ("agrees", "open", "near", "differs", "imposed")}
     return (f"Of {len(rows)} entries {count['agrees']} agree, {count['open']} are open, {count['near']} are near, {count['differs']} differ, and {count['imposed']} are imposed.")
 
 
@@ -116,7 +117,7 @@ def entries():
 
 def paper_verdict(*wanted):
     head = ["quantity", "rpm", "paper", "ours (99 %)", "where in the paper"]
-    return table(head, [[*row[:4], row[5]] for row in entries() if row[4].strip("*") in wanted])
+    return table(head, [[*row[:4], row[5]] for row in entries() if row[4] in wanted])
 
 
 def linear_layer():
@@ -296,36 +297,17 @@ BLIND = (3, 12)
 AMOUNT, AXES, WITHOUT = "with effects.memory, the amount, and the p_min of the particles", "with effects.memory", "without"
 
 
-def limits(entry=AMOUNT):
-    found = cells_of(entry)
+def limits():
+    found = cells_of(AMOUNT)
     shown = sorted(next(iter(found.values()))[1])
     head = [f"{rpm}{' (blind)' if rpm in BLIND else ''}" for rpm in shown]
     head[-1] += " rpm"
-    if entry != AMOUNT:
-        return table(["", *head], [[name, *(judged(found[key][1].get(rpm)) for rpm in shown)] for key, name in ROWS.items()])
     without, axes, rows = cells_of(WITHOUT), cells_of(AXES), []
     for key, name in ROWS.items():
         row, cells = found[key]
         worst = f" in the mean, each {row['must_worst']:g}" if "must_worst" in row else ""
         rows.append([name, f"{row['must']:g}{worst}; {row['aim']:g}", number(cells[6]["floor"], 2), judged(without[key][1].get(6)), judged(axes[key][1].get(6)), *(judged(cells.get(rpm)) for rpm in shown)])
     return table(["", "must; aim", "noise floor, 6 rpm", "mu(I) alone, 6 rpm", "axes remember, 6 rpm", *head], rows)
-
-
-def sensitivities():
-    """The measures of the limits, by the axis, with one free number of the continuum changed at a time."""
-    record = read("memory/sensitivities-6rpm.json")
-    names = ["as it is", *(name for name in record["variants"] if name != "p_min-0.2")]
-    values, found = record["limits"]["axis"], {}
-    for key, value in values.items():
-        quantity, *place = key.split()
-        found[(quantity, *sorted(place[:-1]))] = value
-    rows = []
-    for (quantity, where, zone), name in ROWS.items():
-        value = found[(quantity, *sorted(word for word in (where, zone) if word))]
-        rows.append([name, *(number(value[variant]) for variant in names)])
-    for key, name in (("theta_deg", "theta itself (deg)"), ("H", "H itself, by its own surface (d)"), ("shear_rate", "shear rate itself")):
-        rows.append([name, *(number(record["values"][key][variant], 4) for variant in names)])
-    return table(["", "p_min 0.4, taper 4 d, eps 1e-5, 40,709 unknowns", *(name.replace("-", " ", 1) for name in names[1:])], rows)
 
 
 def second_variable():
@@ -347,10 +329,6 @@ TABLES = {
     "mu(I) over speed": speeds,
     "effects over speed": effects_over_speed,
     "limits": limits,
-    "limits, mu(I) alone": lambda: limits(WITHOUT),
-    "limits, axes alone": lambda: limits(AXES),
-    "limits, p_min of the scene": lambda: limits("with effects.memory and the amount"),
-    "sensitivities": sensitivities,
     "second variable": second_variable,
 }
 PLACE = re.compile(r"(<!-- table (?P<name>[^>]*) -->\n)(?P<text>.*?)(<!-- end of table -->)", re.DOTALL)
