@@ -1,5 +1,5 @@
 // drumlin export --measurements: what was measured of a run, small enough to be kept and passed on
-// (docs/formats/measurements.md).
+// (docs/formats/measured.md).
 #include <fmt/format.h>
 
 #include <algorithm>
