@@ -1,5 +1,32 @@
-"""Packs snapshots for the player: places, spins, speeds and forces as small whole numbers, each told by what the frame before
-lets expect, in one zlib stream (docs/formats/player.md)."""
+"""Packs snapshots for the player: positions, spins, speeds and forces as small whole numbers, each told by what the frame before lets expect.
+
+player.html holds, beside its program, a JSON text `<script type="application/json" id="content">` (drumlin-player-1) and a zlib stream in base64,
+`<script type="application/octet-stream" id="data">`: the planes in sequence. apps/pages/player_data.js and tests/chain/player_file.py read them. Units
+are those of snapshots.
+
+content:
+  title, reduced, status, revision, scales   of the run
+  number, time_s         of each frame; count: grains in any frame, each identity once
+  quantum, origin        a coordinate is origin + quantum times a whole number
+  turns, turn_bits       of each frame, cosine and sine, times 2^turn_bits, of the drum's turn since the frame before; flows: see positions
+  speed                  low, step, changes: a speed is low exp(step level); level 0: low and below; spin: quantum, changes
+  mean_force, force_steps  a force is sign(level) mean_force (level / force_steps)^2; angles: directions are whole numbers of 2 pi/angles
+  pairs, wall_contacts   of each frame, new contacts between grains and all of them; contacts with walls
+  planes                 name and bytes of each; fields, field, view, period, material: colours, the first of them, the part of the plane shown,
+                         a periodic domain, material of each grain
+
+planes, frame after frame. A small number n is folded, 2n for n >= 0 and -2n - 1 below; a folded number below 255 is one byte, others are a byte 255 and
+four bytes, lowest first, in the plane NAME+. Wide numbers have four bytes: the lowest of all numbers, then the next ones. Bits: the lowest first.
+  radius                 float32; id: wide, identity minus the one before; there, where grains come or go: bits, each frame from a byte of its own
+  x, z                   small, positions less the expected ones; speed, spin: small, levels; if `changes`, minus those of the frame before
+  pair_kept              bits, whether each contact of the frame before lasts; pair_a, pair_b: of each new contact, ascending: small, its first grain
+                         minus that of the contact before; wide, its second; pair_force: small, of each contact, its level minus that before
+  wall_grain, wall_force, wall_angle   small, its grain minus the one before; small, its level; a byte, direction from the centre to the wall
+  walls                  JSON, `states` and, per frame, which are present: container, segment, disc, cell
+
+Positions: with c and s of `turns`, R(x, z) = (floor((c x + s z + h) / 2^turn_bits), floor((c z - s x + h) / 2^turn_bits)), h = 2^(turn_bits - 1). A
+grain at p in the frame before, after a step e, is expected at R(p) + R(e) if a part of e exceeds `flows`, else at R(p); its step is then its position
+minus R(p). For a new grain p, e and the step after are 0."""
 
 import json
 import math

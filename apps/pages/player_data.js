@@ -1,4 +1,4 @@
-// From the page's own data to frames: docs/formats/player.md says what stands where.
+// From the page's own data to frames: apps/figures/player_pack.py says what is where.
 
 async function inflated(text) {
   if (typeof DecompressionStream === "undefined") throw new Error("this browser is too old: it has no DecompressionStream");

@@ -103,21 +103,9 @@ def verdicts():
     return (f"Of {len(rows)} entries {count['agrees']} agree, {count['open']} are open, {count['near']} are near, {count['differs']} differ, and {count['imposed']} are imposed.")
 
 
-def entries():
-    """Over the speeds where an entry has one per speed, so that Table I of the paper is a table here, too."""
-    found = {}
-    for name, rpm, paper, ours, verdict, _, where in paper_rows():
-        found.setdefault((name, where), []).append((rpm, paper, ours, verdict))
-    rows = []
-    for (name, where), several in found.items():
-        for rpm, paper, ours, verdict in several:
-            rows.append([name, rpm, paper, ours, verdict, where])
-    return rows
-
-
 def paper_verdict(*wanted):
-    head = ["quantity", "rpm", "paper", "ours (99 %)", "where in the paper"]
-    return table(head, [[*row[:4], row[5]] for row in entries() if row[4] in wanted])
+    head = ["quantity", "rpm", "paper", "ours (99 %)"]
+    return table(head, [row[:4] for row in paper_rows() if row[4] in wanted])
 
 
 def linear_layer():

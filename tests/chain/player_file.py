@@ -1,4 +1,4 @@
-"""Reads a player.html as docs/formats/player.md describes it, with nothing of the program that wrote it."""
+"""Reads a player.html as apps/figures/player_pack.py describes it, with nothing of the program that wrote it."""
 
 import base64
 import html.parser
