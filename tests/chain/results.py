@@ -12,7 +12,7 @@ import tempfile
 SOURCE = pathlib.Path(sys.argv[1])
 TABLES = SOURCE / "apps" / "pages" / "result_tables.py"
 ISOLATED = [sys.executable, "-I", "-B", str(SOURCE / "apps" / "figures" / "isolated.py"), str(TABLES)]
-PAGES = [SOURCE / "README.md", SOURCE / "docs" / "results.md", *sorted((SOURCE / "docs" / "results").glob("*.md"))]
+PAGES = [SOURCE / "README.md", *sorted((SOURCE / "docs" / "results").glob("*.md"))]
 
 
 def call(*words):
