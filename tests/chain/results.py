@@ -1,4 +1,4 @@
-"""README and the pages of results show what the files in data/ say: their tables, and every relative link.
+"""README and the pages of results show what the files in data/ say: their tables, and every relative link; the glossary is that of the pages.
 
 usage: results.py SOURCE_DIR
 """
@@ -59,6 +59,16 @@ def anchors(page):
     return {re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-") for heading in headings}
 
 
+def check_the_glossary():
+    """Every term is used on some page, and no page uses a word that was dropped for one."""
+    pages = {str(page.relative_to(SOURCE / "docs")): re.sub(r"```.*?```|`[^`]*`", "", page.read_text(), flags=re.DOTALL).lower() for page in (SOURCE / "docs").rglob("*.md")}
+    terms = [term for line in re.findall(r"^- \*\*([^*]*)\*\*", pages.pop("glossary.md"), re.MULTILINE) for term in line.split(", ")]
+    unused = [term for term in terms if not any(term in text for text in pages.values())]
+    dropped = [f"{name}: {word}" for name, text in pages.items() for word in re.findall(r"\b(?:stands(?! for)|asks for|march|manieth|hangs on|axes that remember)\b", text)]
+    assert len(terms) > 50 and not unused and not dropped, (unused, dropped)
+
+
 check_the_tables()
 check_that_a_changed_number_is_found()
 check_links()
+check_the_glossary()
