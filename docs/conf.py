@@ -48,7 +48,7 @@ def links_within(text, here):
         words, target = link[1], link[2].split("#")[0]
         if "://" in target or not target:
             return link[0]
-        file = (here / target).resolve()
+        file = pathlib.Path(os.path.normpath(here / target))
         inside = file.is_relative_to(ROOT / "docs") and file.suffix in (".md", ".png")
         if file == ROOT / "README.md":
             return f"[{words}](/index.md)"

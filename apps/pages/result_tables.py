@@ -295,7 +295,7 @@ def limits():
         row, cells = found[key]
         worst = f" in the mean, each {row['must_worst']:g}" if "must_worst" in row else ""
         rows.append([name, f"{row['must']:g}{worst}; {row['aim']:g}", number(cells[6]["floor"], 2), judged(without[key][1].get(6)), judged(axes[key][1].get(6)), *(judged(cells.get(rpm)) for rpm in shown)])
-    return table(["", "must; aim", "noise floor, 6 rpm", "mu(I) alone, 6 rpm", "axes remember, 6 rpm", *head], rows)
+    return table(["", "must; aim", "noise floor, 6 rpm", "mu(I) alone, 6 rpm", "memory of the axes, 6 rpm", *head], rows)
 
 
 def second_variable():
