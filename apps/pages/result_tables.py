@@ -103,28 +103,8 @@ def verdicts():
     return (f"Of {len(rows)} entries {count['agrees']} agree, {count['open']} are open, {count['near']} are near, {count['differs']} differ, and {count['imposed']} are imposed.")
 
 
-def paper_verdict(*wanted):
-    head = ["quantity", "rpm", "paper", "ours (99 %)"]
-    return table(head, [row[:4] for row in paper_rows() if row[4] in wanted])
-
-
-def linear_layer():
-    paper, laws = rotations(), {law["name"]: law["coefficients"] for law in read("paper/laws.toml")["law"]}
-    said, scaling, rows = observables(), laws["shear_rate"], []
-    for rpm in SPEEDS:
-        ours = read(f"bed/{rpm}rpm-{5 if rpm == 6 else 3}turns-seed1/measured/measured.json")
-        theirs = paper[rpm]
-        flat = math.radians(scaling["Phi_deg"])
-        rate = said.get(("shear_rate", rpm)) or scaling["c"] * math.sqrt((math.sin(math.radians(theirs["theta_deg"])) - math.sin(flat)) / math.cos(flat))
-
-        def share(shear_rate, H, Q):
-            return number(0.4 * shear_rate * H**2 / Q, 2)
-
-        mine = {name: ours[name]["value"] for name in ("shear_rate", "H", "Q")}
-        rows.append([str(rpm), interval(ours["Q"]), number(ours["Q_expected"]["value"] if isinstance(ours["Q_expected"], dict) else ours["Q_expected"]), number(theirs["Q"]),
-                     interval(ours["H"]), number(theirs["H"]), interval(ours["shear_rate"]), number(rate),
-                     share(mine["shear_rate"], mine["H"], mine["Q"]), share(rate, theirs["H"], theirs["Q"])])
-    return table(["rpm", "Q", "mass balance", "Q, paper", "H", "H, paper", "shear rate", "shear rate, paper", "linear share of Q", "share, paper"], rows)
+def paper_differs():
+    return table(["quantity", "rpm", "paper", "ours (99 %)"], [row[:4] for row in paper_rows() if row[4] == "differs"])
 
 
 def read_profile(rpm):
@@ -310,9 +290,7 @@ def second_variable():
 TABLES = {
     "headline": headline,
     "verdicts": verdicts,
-    "entries that differ": lambda: paper_verdict("differs"),
-    "entries that are open": lambda: paper_verdict("open"),
-    "linear layer": linear_layer,
+    "entries that differ": paper_differs,
     "definitions of H": depths,
     "mu(I) over speed": speeds,
     "effects over speed": effects_over_speed,
