@@ -63,6 +63,8 @@ def read(_, page, text):
         text[0] = readme.replace("](docs/", "](") + "\n" + text[0]
     else:
         text[0] = links_within(text[0], (ROOT / "docs" / page).parent)
+    if page == "formats/README":
+        text[0] += "\n```{toctree}\n:hidden:\n:glob:\n[!R]*\n```\n"
 
 
 def setup(app):
