@@ -63,6 +63,16 @@ def read_maps(path, names=None, most_columns=None):
         return header, file["x"][::step], file["z"][::step], read(file["fields"]), half_widths
 
 
+def contact_forces(contacts, time_step):
+    """Contacts of a step with their impulses as contacts with forces: i, j, normal (contacts, 2), force on i along it, along the tangent (n_z, -n_x), and
+    as a vector (contacts, 2)."""
+    normal = np.array([contacts["normal_x"], contacts["normal_z"]], float).T
+    tangent = np.array([normal[:, 1], -normal[:, 0]]).T
+    force_n, force_t = contacts["impulse_n"] / time_step, contacts["impulse_t"] / time_step
+    return {"i": contacts["i"], "j": contacts["j"], "normal": normal, "force_n": force_n, "force_t": force_t,
+            "force": force_n[:, None] * normal + force_t[:, None] * tangent}
+
+
 def read_snapshot(path):
     """Numbers and arrays of a snapshot by name: grains, contacts with their forces, the frame. Units of the run: d, sqrt(d/g), rho0 d^2."""
     with h5py.File(path) as stored:
@@ -70,12 +80,7 @@ def read_snapshot(path):
         result.update(time=stored["time"][0], gravity=np.array([stored["gravity_x"][0], stored["gravity_z"][0]]),
                       period=stored["period_x"][0], window=stored["velocity_window"][0])
         if "contacts" in stored:
-            step, contacts = stored["time_step"][0], stored["contacts"]
-            normal = np.array([contacts["normal_x"][:], contacts["normal_z"][:]], float).T
-            tangent = np.array([normal[:, 1], -normal[:, 0]]).T
-            result.update(i=contacts["i"][:], j=contacts["j"][:], normal=normal,
-                          force_n=contacts["impulse_n"][:] / step, force_t=contacts["impulse_t"][:] / step)
-            result["force"] = result["force_n"][:, None] * normal + result["force_t"][:, None] * tangent
+            result.update(contact_forces({name: values[:] for name, values in stored["contacts"].items()}, stored["time_step"][0]))
         if "cell" in stored:
             result["cell"] = {name: stored["cell/" + name][0] for name in stored["cell"]}
         if "walls/x" in stored:

@@ -7,7 +7,8 @@ namespace drumlin::apps {
 
 class Progress {
  public:
-  /// Whether it is time for a new line: twice a second on a terminal, every 15 s elsewhere.
+  /// Whether it is time for a new line: twice a second on a terminal, or where DRUMLIN_PROGRESS is set (the
+  /// Python package reads it), every 15 s elsewhere.
   bool due() const;
   void show(const std::string& line);
   /// Ends a line that was rewritten in place.

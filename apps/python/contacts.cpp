@@ -40,11 +40,6 @@ particles::MatrixProblem problem_of(const Indices& rows, const Indices& columns,
   return particles::matrix_problem(W, values_of(q), values_of(mu), refuse);
 }
 
-bool in_main_thread() {
-  const auto threading = py::module_::import("threading");
-  return threading.attr("current_thread")().is(threading.attr("main_thread")());
-}
-
 // Ctrl-C during a solve: seen where the solver looks at its residual, and raised once it has returned.
 // Signals belong to the main thread: others neither see them nor touch this.
 bool signalled = false;

@@ -57,7 +57,7 @@ coupling::RunEvidence evidence_of(const std::string& name, const Run& arrays, do
 constexpr int most_draws = 10000;  // as `drumlin calibrate` takes them
 
 coupling::Calibration calibrated(const std::vector<Run>& arrays, const std::vector<std::string>& names,
-                                 double nu, const std::string& form, int draws) {
+                                 double nu, const std::string& form, int draws, const py::object& drawn) {
   if (!(nu > 0 && nu < 1)) throw InputError("nu: the volume fraction of the bulk (allowed: between 0 and 1)");
   if (draws < 20 || draws > most_draws)
     throw InputError(fmt::format("draws: {} (allowed: 20 to {})", draws, most_draws));
@@ -65,9 +65,17 @@ coupling::Calibration calibrated(const std::vector<Run>& arrays, const std::vect
   for (std::size_t k = 0; k < arrays.size(); ++k) runs.push_back(evidence_of(names.at(k), arrays[k], nu));
   if (runs.empty()) throw InputError("no points");
   coupling::CalibrationOptions options{.source = coupling::EvidenceSource::profiles, .draws = draws};
+  if (in_main_thread())
+    options.before_each_draw = [&drawn] {  // Ctrl-C is seen here
+      const py::gil_scoped_acquire lock;
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (!drawn.is_none()) drawn();
+    };
   if (form != "auto") options.form = coupling::form_named(form);
   const OthersRun others_run;
-  return coupling::calibration_of(std::move(runs), {}, options);
+  coupling::Calibration found = coupling::calibration_of(std::move(runs), {}, options);
+  found.options.before_each_draw = {};
+  return found;
 }
 
 py::tuple band_of(const coupling::Calibration& calibration, const Numbers& I, double share) {

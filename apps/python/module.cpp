@@ -54,7 +54,7 @@ void drumlin::python::refuse_new(pybind11::handle cls) {
 PYBIND11_MODULE(_drumlin, module) {
   module.doc() = "Grains, contact problems and laws of Drumlin; use the package drumlin.";
   py::register_exception_translator(translate);
-  module.def("version", &drumlin::version_text);
+  module.def("version", &drumlin::version_text, "Version and revision, a text.");
   drumlin::python::add_simulation(module);
   drumlin::python::add_contacts(module);
   drumlin::python::add_laws(module);

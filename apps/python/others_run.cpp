@@ -1,6 +1,6 @@
 #include "apps/python/others_run.hpp"
 
-#include <Python.h>
+#include <pybind11/pybind11.h>
 #include <unistd.h>
 
 namespace drumlin::python {
@@ -13,6 +13,11 @@ OthersRun::~OthersRun() {
   } catch (...) {  // abi::__forced_unwind, of which there is no object to refer to
     for (;;) ::pause();
   }
+}
+
+bool in_main_thread() {
+  const auto threading = pybind11::module_::import("threading");
+  return threading.attr("current_thread")().is(threading.attr("main_thread")());
 }
 
 }  // namespace drumlin::python

@@ -19,4 +19,7 @@ class OthersRun {
   _ts* state_;
 };
 
+/// Whether signals, and what Python does with them, are those of this thread. With the interpreter's lock.
+bool in_main_thread();
+
 }  // namespace drumlin::python

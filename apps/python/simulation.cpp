@@ -3,14 +3,17 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <numbers>
 #include <optional>
 
 #include "apps/python/bindings.hpp"
 #include "apps/python/others_run.hpp"
 #include "coupling/common/errors.hpp"
+#include "particles/io/checkpoint_file.hpp"
 #include "particles/io/grains_of_run.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/scene_file.hpp"
@@ -52,14 +55,15 @@ constexpr int most_threads = 256;  // as the commands take them
 class SteppedScene {
  public:
   SteppedScene(const std::optional<std::string>& text, const std::string& name,
-               const std::vector<std::string>& overrides, int threads) {
-    Scene scene = scene_of(text, name, overrides);
-    if (const auto* asked = std::get_if<particles::GrainsOfRun>(&scene.grains.source))
-      scene.grains.source = particles::grains_of_run(*asked).grains;
-    if (threads < 1 || threads > most_threads)
-      throw InputError("threads: " + std::to_string(threads) + " (allowed: 1 to " +
-                       std::to_string(most_threads) + ")");
-    simulation_ = std::make_unique<Simulation>(scene, threads);
+               const std::vector<std::string>& overrides, int threads)
+      : told_(scene_of(text, name, overrides)) {
+    simulation_ = std::make_unique<Simulation>(with_grains(), checked(threads));
+  }
+  /// Goes on from a file that save() wrote.
+  SteppedScene(const std::string& file, int threads) {
+    particles::Checkpoint checkpoint = particles::read_checkpoint(file);
+    told_ = particles::parse_scene(checkpoint.scene, "scene");
+    simulation_ = std::make_unique<Simulation>(with_grains(), std::move(checkpoint.state), checked(threads));
   }
 
   py::dict step() {
@@ -73,7 +77,7 @@ class SteppedScene {
                     py::arg("overlap_max") = report.overlap.max);
   }
 
-  /// What `of` copies out of the simulation while no step is at work on it.
+  /// What `of` copies out of the simulation, or does with it, while no step is at work on it.
   template <class Of>
   auto look(const Of& of) const {
     const OthersRun others_run;
@@ -90,11 +94,81 @@ class SteppedScene {
                                          py::cast(this, py::return_value_policy::reference)));
   }
 
+  // HDF5 serves one thread: files are written behind the interpreter's lock.
   void save_snapshot(const std::string& file) {
-    particles::write_snapshot(file, snapshot());  // HDF5 serves one thread: behind the interpreter's lock
+    particles::write_snapshot(file, look([](Simulation& s) { return s.take_snapshot(); }));
+  }
+  void save(const std::string& file) {
+    particles::Checkpoint checkpoint;
+    checkpoint.state = look([&](Simulation& s) {
+      checkpoint.scene = particles::scene_text(told_);
+      return s.state();
+    });
+    particles::write_checkpoint(file, checkpoint);
+  }
+
+  void set_velocities(const std::vector<double>& v_x, const std::vector<double>& v_z,
+                      const std::vector<double>& spin) {
+    look([&](Simulation& s) { s.set_velocities(v_x, v_z, spin); });
+  }
+  void set_friction(double grain_grain, double grain_wall) {
+    change_stage([&](particles::Stage& stage) { stage.effects.friction = {grain_grain, grain_wall}; });
+  }
+  void set_gravity(double x, double z) {
+    change_stage([&](particles::Stage& stage) {
+      const Scales& scales = simulation_->scales();
+      const double down = x == 0 && z < 0 ? -90 : std::atan2(z, x) * 180 / std::numbers::pi;
+      stage.gravity = {std::hypot(x, z) * scales.length_m / (scales.time_s * scales.time_s), down};
+    });
+  }
+  /// The wall moves on with a velocity and, clockwise, a rotation about a point, both of this moment.
+  void set_wall(const std::string& wall, std::array<double, 2> velocity, double spin,
+                std::array<double, 2> center) {
+    const auto change = [&](particles::Stage& stage) {
+      const Scales& scales = simulation_->scales();
+      const auto& state = simulation_->state();
+      const double since = simulation_->next_stage() == state.stage ? state.time_in_stage : 0;
+      const double mm = 1e3 * scales.length_m, mm_s = 1e3 * scales.velocity_m_s();
+      std::erase_if(stage.motions, [&](const auto& motion) { return motion.wall == wall; });
+      for (int k : {0, 1}) center[k] = (center[k] - velocity[k] * since) * mm, velocity[k] *= mm_s;
+      if (spin != 0)
+        stage.motions.push_back(
+            {wall, particles::Rotation{spin * 30 / std::numbers::pi / scales.time_s, center}});
+      stage.motions.push_back({wall, particles::Translation{velocity}});
+    };
+    change_stage(change, wall);
   }
 
  private:
+  static int checked(int threads) {
+    if (threads < 1 || threads > most_threads)
+      throw InputError("threads: " + std::to_string(threads) + " (allowed: 1 to " +
+                       std::to_string(most_threads) + ")");
+    return threads;
+  }
+
+  /// The scene as told, with the grains of another run in place of its name.
+  Scene with_grains() const {
+    Scene scene = told_;
+    if (const auto* asked = std::get_if<particles::GrainsOfRun>(&scene.grains.source))
+      scene.grains.source = particles::grains_of_run(*asked).grains;
+    return scene;
+  }
+
+  /// Changes the stage of the next step as a scene file could, whose checks it passes.
+  template <class Change>
+  void change_stage(const Change& change, const std::string& moved = "") {
+    look([&](Simulation& s) {
+      Scene scene = told_;
+      particles::Stage& stage = scene.stages[s.next_stage()];
+      if (stage.turns) stage.duration_s = particles::duration_s(stage), stage.turns.reset();
+      change(stage);
+      scene = particles::parse_scene(particles::scene_text(scene), "scene");
+      s.change_stage(scene.stages[s.next_stage()], moved);
+      told_ = scene;
+    });
+  }
+
   particles::StepReport stepped() {
     const OthersRun others_run;
     const std::lock_guard turn(turn_);
@@ -108,13 +182,8 @@ class SteppedScene {
     }
   }
 
-  particles::Snapshot snapshot() {
-    const OthersRun others_run;
-    const std::lock_guard turn(turn_);
-    return simulation_->take_snapshot();
-  }
-
   mutable std::mutex turn_;
+  Scene told_;  // with what setters changed
   std::unique_ptr<Simulation> simulation_;
   std::string fault_;  // of a step that must not be built upon
 };
@@ -151,7 +220,15 @@ void add_simulation(py::module_& module) {
              [](const Text& text, const std::string& name, const std::vector<std::string>& overrides,
                 int threads) { return std::make_unique<SteppedScene>(text, name, overrides, threads); });
   scene.def("step", &SteppedScene::step);
+  module.def("continued_scene", [](const std::string& file, int threads) {
+    return std::make_unique<SteppedScene>(file, threads);
+  });
   scene.def("save_snapshot", &SteppedScene::save_snapshot);
+  scene.def("save", &SteppedScene::save);
+  scene.def("set_velocities", &SteppedScene::set_velocities);
+  scene.def("set_friction", &SteppedScene::set_friction);
+  scene.def("set_gravity", &SteppedScene::set_gravity);
+  scene.def("set_wall", &SteppedScene::set_wall);
   scene.def_property_readonly("scales", &scales_of);
   const auto number = [&](const char* name, auto of) {
     scene.def_property_readonly(name, [of](const SteppedScene& s) { return s.look(of); });

@@ -12,7 +12,7 @@ std::vector<FrictionPoint> all_of(const std::vector<std::vector<FrictionPoint>>&
 }
 
 CalibratedLaw calibrated(const std::vector<std::vector<FrictionPoint>>& runs, const FrictionForm& form,
-                         int draws) {
+                         int draws, const std::function<void()>& before_each) {
   const std::vector<FrictionPoint> all = all_of(runs);
   CalibratedLaw law{form, fit_friction(all, form), {}, all.front().I, all.front().I};
   // A table that is held in one interval may become too flat in the next.
@@ -22,7 +22,7 @@ CalibratedLaw calibrated(const std::vector<std::vector<FrictionPoint>>& runs, co
     law.form = kept;
     law.fit = fit_friction(all, kept);
   }
-  law.draws = bootstrapped(runs, law.form, draws);
+  law.draws = bootstrapped(runs, law.form, draws, 1, before_each);
   for (const FrictionPoint& point : all) {
     law.I_min = std::min(law.I_min, point.I);
     law.I_max = std::max(law.I_max, point.I);

@@ -1,5 +1,6 @@
 #pragma once
 // A fitted law with the laws of other draws of its points.
+#include <functional>
 #include <vector>
 
 #include "coupling/calibration/robust_law.hpp"
@@ -17,9 +18,9 @@ struct CalibratedLaw {
 };
 
 /// A table of mu is kept well-posed (kept_well_posed()) at each of its I. Throws InputError as
-/// fit_friction().
+/// fit_friction(). `before_each` draw, if there is one, is called.
 CalibratedLaw calibrated(const std::vector<std::vector<FrictionPoint>>& runs, const FrictionForm& form,
-                         int draws);
+                         int draws, const std::function<void()>& before_each = {});
 
 /// The law and its 99 % band at inertial numbers that are evenly spaced in ln I over its range.
 struct SampledLaw {

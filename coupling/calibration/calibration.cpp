@@ -60,7 +60,8 @@ void fit_forms(Calibration& calibration) {
       calibration.chosen = calibration.forms.size();
       found = true;
     }
-    calibration.forms.push_back(calibrated(points, form, calibration.options.draws));
+    calibration.forms.push_back(
+        calibrated(points, form, calibration.options.draws, calibration.options.before_each_draw));
   }
   if (!found)
     throw InputError(

@@ -1,5 +1,6 @@
 #pragma once
 // From the evidence of runs to one law, and what is known of it.
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct CalibrationOptions {
   int draws = 200;
   bool nonlocal = false;  ///< needs the maps and amount_blocks of the runs
   bool amount = false;    ///< with `memory`: past strain adds to the amount of the stress
+  std::function<void()> before_each_draw = {};  ///< of mu; may throw to end a long fit
 };
 
 struct Calibration {

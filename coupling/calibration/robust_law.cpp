@@ -233,7 +233,8 @@ RobustFriction fit_friction(const std::vector<FrictionPoint>& points, const Fric
 }
 
 std::vector<Coefficients> bootstrapped(const std::vector<std::vector<FrictionPoint>>& runs,
-                                       const FrictionForm& form, int replicates, std::uint64_t seed) {
+                                       const FrictionForm& form, int replicates, std::uint64_t seed,
+                                       const std::function<void()>& before_each) {
   std::vector<FrictionPoint> all;
   for (const auto& run : runs) all.insert(all.end(), run.begin(), run.end());
   const RobustFriction fit = fit_friction(all, form);
@@ -243,6 +244,7 @@ std::vector<Coefficients> bootstrapped(const std::vector<std::vector<FrictionPoi
   std::mt19937_64 random(seed);
   std::vector<Coefficients> laws;
   for (int replicate = 0; replicate < replicates; ++replicate) {
+    if (before_each) before_each();
     std::vector<FrictionPoint> points;
     for (const auto& run : runs) {
       if (run.empty()) continue;

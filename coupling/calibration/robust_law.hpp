@@ -2,6 +2,7 @@
 // mu(I) through measured points, robustly, and what other draws of the same points would have given.
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "coupling/calibration/friction_form.hpp"
@@ -29,9 +30,10 @@ RobustFriction fit_friction(const std::vector<FrictionPoint>& points, const Fric
 /// for points next to each other move together), with replacement (Kuensch, Ann. Stat. 17 (1989) 1217); the
 /// scatter is that of all points. Draws are widened about the law of all points, since few blocks differ by
 /// less than new measurements would; a coefficient that this takes below its least value is held there. The
-/// same `seed` gives the same draws.
+/// same `seed` gives the same draws. `before_each`, if there is one, is called before each: it may throw.
 std::vector<Coefficients> bootstrapped(const std::vector<std::vector<FrictionPoint>>& runs,
-                                       const FrictionForm& form, int replicates, std::uint64_t seed = 1);
+                                       const FrictionForm& form, int replicates, std::uint64_t seed = 1,
+                                       const std::function<void()>& before_each = {});
 
 struct FrictionBand {
   double low = 0;

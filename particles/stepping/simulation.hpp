@@ -4,6 +4,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -75,6 +76,18 @@ class Simulation {
   bool finished() const { return state_.step >= plan_.steps; }
   /// One step; must not be finished.
   StepReport step();
+
+  // What a caller changes between two steps. A continued run knows it: of scene() and state() it is the same.
+  /// The stage of the next step.
+  int next_stage() const;
+  /// Takes over from the next step on what `changed` says of its stage: length, gravity, coefficients and
+  /// motions. `moved`: the wall whose motions are others, which goes on from where it is. Throws InputError
+  /// where the stage depends on how that wall moves.
+  void change_stage(const Stage& changed, const std::string& moved = "");
+  /// Gives the grains other velocities, one for each. Throws InputError where one is not finite or faster
+  /// than steps can follow, and in a scene with an energy ledger, which has no account for it.
+  void set_velocities(std::span<const double> v_x, std::span<const double> v_z, std::span<const double> spin);
+
   /// Whether a snapshot belongs to the state after the last step.
   bool snapshot_due() const;
   /// The state after the last step. Counts as the next snapshot of the run.

@@ -1,8 +1,12 @@
-// What stages change while a simulation runs, and what it looks at in scenes that ask for it.
+// What stages and callers change while a simulation runs, and what it looks at in scenes that ask for it.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "coupling/common/errors.hpp"
+#include "particles/stepping/lost_grain.hpp"
 #include "particles/stepping/simulation.hpp"
 
 namespace drumlin::particles {
@@ -26,7 +30,63 @@ bool has_taken(const UntilOut& asked, const Scene& scene, const Traffic& traffic
   return false;
 }
 
+void require_free(const Stage& stage, const std::string& wall) {
+  const auto refuse = [&](const std::string& why) {
+    throw InputError({InputProblem{"", 0, 0, wall, why, "a wall that motions of the stage alone move"}});
+  };
+  for (const WallMotion& motion : stage.motions)
+    if (motion.wall == wall && is_driven(motion)) refuse("is moved by a force in stage " + stage.name);
+  if (stage.until && stage.until->moved && stage.until->moved->wall == wall)
+    refuse("ends stage " + stage.name + " when it has moved");
+}
+
 }  // namespace
+
+int Simulation::next_stage() const {
+  const bool over = state_.step_in_stage == plan_.stages[state_.stage].steps && !finished();
+  return state_.stage + (over ? 1 : 0);
+}
+
+void Simulation::change_stage(const Stage& changed, const std::string& moved) {
+  const int k = next_stage();
+  Stage& stage = scene_.stages[k];
+  if (!moved.empty()) require_free(stage, moved);
+  stage.duration_s = changed.duration_s, stage.turns = changed.turns;
+  stage.gravity = changed.gravity, stage.effects = changed.effects, stage.motions = changed.motions;
+  if (changes_gravity(scene_) && !state_.gravity) state_.gravity = scene_.effects.gravity;
+  laws_of_stage_ = -1;
+  if (moved.empty()) return;
+  walls_.reference = walls_of(scene_, scales_).reference;  // ends stay joined where walls move together
+  if (k != state_.stage) return;
+  const auto w = std::find(walls_.names.begin(), walls_.names.end(), moved) - walls_.names.begin();
+  const double t = state_.time_in_stage;
+  const Pose now = walls_.pose(static_cast<int>(w), t);
+  Walls begun = walls_;
+  begin_stage(begun, stage, scales_, t, state_.driven);
+  walls_.motions[w] = begun.motions[w];
+  walls_.pose_at_start[w] = {};
+  walls_.pose_at_start[w] = after(inverse(walls_.pose(static_cast<int>(w), t)), now);
+  state_.pose_at_start = walls_.pose_at_start;
+}
+
+void Simulation::set_velocities(std::span<const double> v_x, std::span<const double> v_z,
+                                std::span<const double> spin) {
+  Bodies bodies = state_.bodies;
+  if (scene_.output.energy_ledger)
+    throw InputError("output.energy_ledger: has no account for velocities that a caller sets");
+  if (v_x.size() != bodies.count() || v_z.size() != bodies.count() || spin.size() != bodies.spin.size())
+    throw InputError("velocities: are not one for each grain");
+  bodies.v_x.assign(v_x.begin(), v_x.end());
+  bodies.v_z.assign(v_z.begin(), v_z.end());
+  bodies.spin.assign(spin.begin(), spin.end());
+  auto wrong = grain_that_is_not_finite(bodies);
+  if (!wrong) wrong = grain_too_fast(bodies, plan_.stages[next_stage()].time_step);
+  if (wrong) throw InputError(fmt::format("velocity: grain {} {}", wrong->grain, to_string(wrong->how)));
+  // Into the arrays that are there: others may look at them.
+  std::copy(v_x.begin(), v_x.end(), state_.bodies.v_x.begin());
+  std::copy(v_z.begin(), v_z.end(), state_.bodies.v_z.begin());
+  std::copy(spin.begin(), spin.end(), state_.bodies.spin.begin());
+}
 
 /// Between the steps, so that contacts and impulses of a step name the grains that were there.
 void Simulation::exchange() {

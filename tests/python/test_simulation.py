@@ -24,7 +24,7 @@ def test_the_walls_give_what_the_momentum_and_the_weight_take(box):
 
     def stepped(at, report):
         momentum = np.array([mass @ at.v_x, mass @ at.v_z])
-        seen.append(at.forces[at.contacts["j"] < 0].sum(axis=0) * at.time_step - (momentum - before) - [0, mass.sum() * at.time_step])
+        seen.append(at.contacts.force[at.contacts.j < 0].sum(axis=0) * at.time_step - (momentum - before) - [0, mass.sum() * at.time_step])
         before[:] = momentum
         return at.steps < 120
 
@@ -131,10 +131,10 @@ def test_a_finished_scene_has_no_further_step(box):
 def test_a_sweep_runs_every_combination_of_a_dict_and_goes_on(box, tmp_path, capfd):
     box["stages"][0]["duration_s"] = 0.01
     values = {"effects.friction.grain_grain": [0.2, 0.4], "solver.tolerance": [1e-3]}
-    runs = drumlin.sweep(box, values, tmp_path / "sweep", processes=2)
+    runs = drumlin.sweep(box, values, tmp_path / "sweep", processes=2, progress=True)
     assert [changes["effects.friction.grain_grain"] for changes, _ in runs] == [0.2, 0.4]
     assert [folder["scene.toml"]["effects"]["friction"]["grain_grain"] for _, folder in runs] == [0.2, 0.4]
-    assert "2 of 2 runs" in capfd.readouterr().err
+    assert f"results: {tmp_path}/sweep" in capfd.readouterr().err
     written = [(folder.path / "run.json").stat().st_mtime_ns for _, folder in runs]
     again = drumlin.sweep(box, values, tmp_path / "sweep", progress=False)
     assert [(folder.path / "run.json").stat().st_mtime_ns for _, folder in again] == written

@@ -1,19 +1,22 @@
 """The commands, for what Python does not do by itself: each is started as a process and raises what it refuses or fails at."""
 
-import concurrent.futures
 import itertools
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
-import sys
+import tempfile
+import time
 
 from .errors import DrumlinError, InputError, IoError, NotConvergedError
 from .files import Folder, read
 from .inputs import file_name
+from .progress import Progress
 from .scenes import overrides_of, toml_of
 
+_SHARE = re.compile(r"^(?:reduced )?[a-z ]+? +([\d.]+) %.*\n", re.MULTILINE)  # a line of progress
 _KINDS = {2: InputError, 3: NotConvergedError, 74: IoError}
 
 
@@ -29,23 +32,70 @@ def program(name="drumlin"):
     return pathlib.Path(found)
 
 
-def command(*words):
-    """Runs `drumlin WORDS...` and returns what it printed. Raises the error that its exit code stands for, with its text; Ctrl-C ends it and is a
-    KeyboardInterrupt here."""
-    with subprocess.Popen([program(), *map(_text, words)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, text=True) as process:
+class _Process:
+    """A command at work. What it prints goes to files: nobody has to read it meanwhile."""
+
+    def __init__(self, words, watched=False):
+        self._printed, self._said = (tempfile.TemporaryFile("a+", errors="backslashreplace") for _ in range(2))
+        self._process = subprocess.Popen([program(), *map(_text, words)], stdin=subprocess.DEVNULL, stdout=self._printed, stderr=self._said,
+                                         env=os.environ | {"DRUMLIN_PROGRESS": "1"} if watched else None)
+
+    def has_ended(self, seconds=0.0):
+        """Whether it has ended within so many seconds."""
         try:
-            printed, said = process.communicate()
+            return self._process.wait(seconds) is not None
+        except subprocess.TimeoutExpired:
+            return False
+
+    def interrupt(self):
+        """Hands Ctrl-C on: a run leaves a checkpoint."""
+        self._process.send_signal(signal.SIGINT)  # it has it already where both stand in one group of a terminal
+
+    def last_word(self):
+        """What it says at its end, for which it waits; Ctrl-C meanwhile kills it."""
+        try:
+            self._process.wait()
         except KeyboardInterrupt:
-            process.send_signal(signal.SIGINT)  # it has it already where both stand in one group of a terminal
-            process.communicate()
-            raise
-    if process.returncode == 0:
-        return printed
-    text = said.strip().removeprefix("drumlin: ") or f"drumlin ended with exit code {process.returncode}"
-    if process.returncode in (130, -signal.SIGINT):
-        raise KeyboardInterrupt(text)
-    raise _KINDS.get(process.returncode, DrumlinError)(text)
+            self._process.kill()
+        return _SHARE.sub("", self._text(self._said)).strip() or "interrupted"
+
+    def percent(self):
+        """How far it says that it has come; None before it says so."""
+        found = _SHARE.findall(self._text(self._said))
+        return float(found[-1]) if found else None
+
+    def result(self):
+        """What it printed. Raises the error that its exit code stands for, with its text."""
+        code = self._process.wait()
+        if code == 0:
+            return self._text(self._printed)
+        text = _SHARE.sub("", self._text(self._said)).strip() or f"drumlin ended with exit code {code}"
+        if code in (130, -signal.SIGINT):
+            raise KeyboardInterrupt(text)
+        raise _KINDS.get(code, DrumlinError)(text)
+
+    @staticmethod
+    def _text(file):
+        file.seek(0)
+        return file.read()
+
+
+def _command(words, name=None, output=None, progress=False):
+    with Progress(name, 100 if name in ("run", "measure") else None, progress, output) as bar:
+        process = _Process(words, bar.shown)
+        try:
+            while not process.has_ended(0.25 if bar.shown else None):
+                bar.to(process.percent())
+        except KeyboardInterrupt:
+            process.interrupt()
+            raise KeyboardInterrupt((f"{output}: " if output else "") + process.last_word()) from None
+        return process.result()
+
+
+def command(*words) -> str:
+    """Runs `drumlin WORDS...` and returns what it printed, a text. Raises the error that its exit code stands for, with its text; Ctrl-C ends it and is
+    a KeyboardInterrupt here."""
+    return _command(words)
 
 
 def _text(word):
@@ -77,51 +127,78 @@ def _sets(changes):
     return [word for change in overrides_of(changes) for word in ("--set", change)]
 
 
-def run(scene, output, changes=(), threads: int = 1, overwrite: bool = False) -> Folder:
-    """`drumlin run`: a scene (a file, the name of a shipped one, a text, a dict) into a folder of results, which is returned."""
+def run(scene, output, changes=(), threads: int = 1, overwrite: bool = False, resume: bool = False, progress: bool | None = None) -> Folder:
+    """`drumlin run`: steps a scene of grains to its end, into a folder of results, which is returned.
+
+    scene: a file, the name of a shipped one, a text of TOML or a dict of its keys, in their units (mm, s, ...); changes: {"solver.tolerance": 1e-3}.
+    resume: goes on where a call was interrupted. Ctrl-C leaves a checkpoint. progress: shown or not; None: on a terminal alone.
+    """
     output = pathlib.Path(output)
-    command("run", _scene_file(scene, output, "drumlin-scene-1"), "-o", output, "--threads", threads, *_sets(changes), *_existing(overwrite))
+    _command(["run", _scene_file(scene, output, "drumlin-scene-1"), "-o", output, "--threads", threads, *_sets(changes), *_existing(overwrite),
+              *(["--resume"] if resume else [])], "run", output, progress)
     return read(output)
 
 
-def solve_flow(scene, law, output, changes=(), overwrite: bool = False) -> Folder:
-    """`drumlin flow`: a scene of the continuum (as in run) with a law (a file, or a Law) into a folder of results, which is returned."""
+def solve_flow(scene, law, output, changes=(), overwrite: bool = False, progress: bool | None = None) -> Folder:
+    """`drumlin flow`: a scene of the continuum with a law (a file, or a Law) into a folder of results, which is returned.
+
+    scene, changes, progress: as in run. Needs the half of Drumlin with deal.II.
+    """
     output = pathlib.Path(output)
     law = _written(law, output, "law") if hasattr(law, "write") else law
-    command("flow", _scene_file(scene, output, "drumlin-flow-scene-1"), "--rheology", law, "-o", output, *_sets(changes), *_existing(overwrite))
+    _command(["flow", _scene_file(scene, output, "drumlin-flow-scene-1"), "--rheology", law, "-o", output, *_sets(changes), *_existing(overwrite)],
+             "flow", output, progress)
     return read(output)
 
 
-def measure(run_folder, overwrite: bool = False, parts=()) -> Folder:
-    """`drumlin measure`: the folder RUN/measured. parts: what is measured beside the profiles (`drumlin measure --help`); all that is usual unless told."""
-    command("measure", run_folder, *_existing(overwrite), *(["--parts", ",".join(parts)] if parts else []))
-    return read(pathlib.Path(run_folder) / "measured")
+def measure(run_folder, overwrite: bool = False, parts=(), progress: bool | None = None) -> Folder:
+    """`drumlin measure`: averages of a run into its folder `measured`, which is returned.
 
-
-def compare(run_folder, flow_folder, output, overwrite: bool = False, accept_unsteady: bool = False) -> Folder:
-    """`drumlin compare`: a measured run beside a flow, into a folder with comparison.json and a page."""
-    command("compare", run_folder, flow_folder, "-o", output, *_existing(overwrite), *(["--accept-unsteady"] if accept_unsteady else []))
+    parts: what is measured beside the profiles (`drumlin measure --help`); all that is usual unless told. progress: as in run.
+    """
+    output = pathlib.Path(run_folder) / "measured"
+    _command(["measure", run_folder, *_existing(overwrite), *(["--parts", ",".join(parts)] if parts else [])], "measure", output, progress)
     return read(output)
 
 
-def sweep(scene, values: dict, output, processes: int | None = None, progress: bool = True) -> list[tuple[dict, Folder]]:
+def compare(run_folder, flow_folder, output, overwrite: bool = False, accept_unsteady: bool = False, progress: bool | None = None) -> Folder:
+    """`drumlin compare`: a measured run beside a flow, into a folder with comparison.json and a page, which is returned. progress: as in run."""
+    _command(["compare", run_folder, flow_folder, "-o", output, *_existing(overwrite), *(["--accept-unsteady"] if accept_unsteady else [])],
+             "compare", output, progress)
+    return read(output)
+
+
+def sweep(scene, values: dict, output, processes: int | None = None, progress: bool | None = None) -> list[tuple[dict, Folder]]:
     """Runs a scene with every combination of values, {"effects.friction.grain_grain": [0.2, 0.4]}, in parallel processes of one thread each.
 
     Returns [(changes, folder), ...] in the order of the combinations; the folders lie in `output`, named by their numbers, from 000 on. The same
-    call again goes on where one was interrupted. A run that fails raises its error once the others have ended.
+    call again goes on where one was interrupted: Ctrl-C leaves a checkpoint of each run. A run that fails raises its error once the others have ended.
     """
     output = pathlib.Path(output)
     output.mkdir(parents=True, exist_ok=True)
     scene = _scene_file(scene, output / "sweep", "drumlin-scene-1")
     plans = [dict(zip(values, chosen)) for chosen in itertools.product(*values.values())]
-
-    def one(number):
-        command("run", scene, "-o", output / f"{number:03}", "--threads", 1, "--resume", *_sets(plans[number]))
-        return plans[number], read(output / f"{number:03}")
-
-    with concurrent.futures.ThreadPoolExecutor(processes or os.cpu_count()) as pool:
-        futures = [pool.submit(one, number) for number in range(len(plans))]
-        for done, _ in enumerate(concurrent.futures.as_completed(futures), 1):
-            if progress:
-                print(f"\r{done} of {len(plans)} runs", end="" if done < len(plans) else "\n", file=sys.stderr, flush=True)
-    return [future.result() for future in futures]
+    waiting, at_work, failures = list(enumerate(plans)), [], []
+    with Progress("sweep", len(plans), progress, output) as bar:
+        try:
+            while waiting or at_work:
+                while waiting and len(at_work) < (processes or os.cpu_count()):
+                    number, plan = waiting.pop(0)
+                    at_work.append(_Process(["run", scene, "-o", output / f"{number:03}", "--threads", 1, "--resume", *_sets(plan)]))
+                time.sleep(0.05)
+                for process in [process for process in at_work if process.has_ended()]:
+                    at_work.remove(process)
+                    try:
+                        process.result()
+                    except DrumlinError as error:
+                        failures.append(error)
+                bar.to(len(plans) - len(waiting) - len(at_work))
+        except KeyboardInterrupt:
+            for process in at_work:
+                process.interrupt()
+            for process in at_work:
+                process.last_word()
+            raise
+        if failures:
+            raise failures[0]
+    return [(plan, read(output / f"{number:03}")) for number, plan in enumerate(plans)]

@@ -15,23 +15,29 @@ from .inputs import file_name
 
 
 class Arrays(dict):
-    """Numbers and arrays of a file by name, also as attributes; `format`, `header` and `path` say what it is."""
+    """Numbers and arrays of a file by name, table["v_x"] or table.v_x, in the units of its page in docs/formats: (rows,) of a table, (z, x) of maps,
+    (grains,) and (contacts,) or (contacts, 2) of a snapshot. `format`, `header` (texts by name) and `path` say what it is."""
 
     def __init__(self, values, path, form="", header=None):
         super().__init__(values)
         self.path, self.format, self.header = pathlib.Path(path), form, header or {}
 
+    def __missing__(self, name):
+        raise KeyError(f"{self.path}: holds no {name} (it holds {', '.join(self)})")
+
     def __getattr__(self, name):
+        if name.startswith("__") or name == "path":  # asked for by copies, before there is anything
+            raise AttributeError(name)
         try:
             return self[name]
-        except KeyError:
-            raise AttributeError(f"{self.path}: holds no {name} (it holds {', '.join(self)})") from None
+        except KeyError as error:
+            raise AttributeError(error.args[0]) from None
 
     def __dir__(self):
         return [*super().__dir__(), *(name for name in self if name.isidentifier())]
 
     def to_frame(self):
-        """A pandas.DataFrame of the columns, all of one length."""
+        """A pandas.DataFrame of the columns of a table: one-dimensional arrays of one length."""
         import pandas  # pylint: disable=import-outside-toplevel  # of those who ask for it
 
         length = max((np.size(values) for values in self.values() if np.ndim(values) == 1), default=0)
@@ -42,22 +48,24 @@ class Arrays(dict):
 
 
 class Folder:
-    """A folder of results: its files are read when they are asked for, folder["log.csv"], folder["measured/maps.h5"]."""
+    """A folder of results: its files are read when they are asked for, folder["log.csv"], folder["measured/maps.h5"]; `path` is where it lies."""
 
     def __init__(self, path):
         self.path = pathlib.Path(path)
 
     @property
     def files(self):
-        """Names of all files that can be read."""
+        """Names of all files that can be read, a list of texts."""
         return [str(file.relative_to(self.path)) for file in sorted(self.path.rglob("*")) if file.is_file() and file.suffix in READERS]
 
     @property
     def snapshots(self):
-        """Paths of the snapshots of a run, in order of time."""
+        """Paths of the snapshots of a run, a list in order of time."""
         return sorted((self.path / "snapshots").glob("*.h5"))
 
     def __getitem__(self, name):
+        if name not in self and not (self.path / name).is_dir():
+            raise IoError(f"{self.path}: holds no {name} (it holds {', '.join(self.files)})")
         return read(self.path / name)
 
     def __contains__(self, name):
@@ -73,7 +81,8 @@ def _is_number(entry):
 
 
 def value_of(content, name):
-    """(value, half width of its 99 % interval) of a number of a JSON file; NaN for what was not measured. KeyError for what it does not know."""
+    """(value, half width of its 99 % interval) of a number of a JSON file that was read, in the units of its page in docs/formats; NaN for what was not
+    measured. KeyError for what it does not know."""
     if name not in content:
         known = [key for key, entry in content.items() if _is_number(entry)]
         raise KeyError(f"{name}: is no number of this file (allowed: {', '.join(known)})")
@@ -128,7 +137,8 @@ READERS = {".csv": _read_csv, ".json": _read_json, ".toml": _read_toml, ".h5": _
 
 
 def read(path):
-    """A folder of results, or one file of it: tables, maps, snapshots and contact problems as arrays by name, JSON and TOML as dicts."""
+    """A folder of results, or one file of it: tables, maps, snapshots and contact problems as arrays by name, JSON and TOML as dicts. docs/formats says what each
+    holds, and in which units."""
     path = pathlib.Path(os.fsdecode(file_name(path)))
     if path.is_dir():
         return Folder(path)

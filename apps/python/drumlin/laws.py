@@ -1,5 +1,6 @@
 """Laws mu(I): files evaluated over arrays, and calibration from arrays."""
 
+import operator
 import os
 import pathlib
 
@@ -9,11 +10,11 @@ from . import _drumlin
 from .errors import InputError, IoError
 from .figures import whole_file
 from .inputs import file_name, real
+from .progress import Progress
 
 
 class Law:
-    """A law of a file rheology.toml, or of its text: mu(I) and slope(I) = I dmu/dI over arrays, as a flow computes with it; `nu`, and the law in
-    `words`."""
+    """A law of a file rheology.toml, or of its text, as a flow computes with it. All its numbers are dimensionless."""
 
     def __init__(self, source):
         if isinstance(source, str) and "\n" in source:
@@ -23,21 +24,32 @@ class Law:
         self._law = _drumlin.law(text, name)
         self.text = text
 
+    def __reduce__(self):
+        return Law, (self.text,)
+
+    def __repr__(self):
+        return f"<law: {self.words}>"
+
     def mu(self, I):  # noqa: E741
+        """mu at I, a number or an array of any shape; of that shape."""
         return self._law.mu(real("I", I))
 
     def slope(self, I):  # noqa: E741
+        """I dmu/dI at I, of its shape."""
         return self._law.slope(real("I", I))
 
     @property
     def nu(self):
+        """Volume fraction of the bulk."""
         return self._law.nu
 
     @property
     def words(self):
+        """mu(I) as a formula, a text."""
         return self._law.words
 
     def write(self, path):
+        """Writes the file rheology.toml that `drumlin flow --rheology` reads."""
         whole_file.write_text(os.fsdecode(file_name(path)), self.text)
 
 
@@ -49,20 +61,18 @@ def _text_of_file(path):
 
 
 class CalibratedLaw(Law):
-    """A law with what is known of it: `form`, `coefficients`, `rms_misfit`, `scatter` beyond the errors of the points, `range` of I,
-    `ill_posed` ranges of I; band(I) is what lies between the laws of other draws of the points."""
+    """A law that was fitted to points, with what is known of it."""
 
-    def __init__(self, found):
-        super().__init__(found.text)
-        self._found = found
+    def __init__(self, *points, drawn=None):
+        self._found = _drumlin.calibrate(*points, drawn)
+        self._points = points
+        super().__init__(self._found.text)
 
-    def __getattr__(self, name):
-        if name in ("form", "coefficients", "rms_misfit", "scatter", "points", "range", "ill_posed"):
-            return getattr(self._found, name)
-        raise AttributeError(name)
+    def __reduce__(self):
+        return CalibratedLaw, self._points
 
     def band(self, I, share=0.99):  # noqa: E741
-        """(low, high) of mu at I."""
+        """(low, high) of mu at I, each of its shape: between them lie so much of the laws of other draws of the points."""
         return self._found.band(real("I", I), share)
 
 
@@ -73,11 +83,19 @@ def _checked_errors(what, errors):
         raise InputError(f"{what}: is {errors[place]} at point {place} (allowed: finite and above 0; None where it is not known)")
 
 
-def calibrate(I, mu, I_error=None, mu_error=None, *, nu, form="auto", draws=200, names=None):  # noqa: E741
+for _name, _doc in {"form": '"log", "log-linear" or "table".', "coefficients": "Of the form: a and b of mu = a + b ln I, values at the knots of a table; a list.",
+                    "rms_misfit": "Root mean square of what the law leaves of the points.", "scatter": "What of it their errors do not explain.",
+                    "points": "Their number.", "range": "(I_min, I_max) of the points.",
+                    "ill_posed": "Ranges of I in which the equations of flow are ill-posed in simple shear, [(from, to), ...]."}.items():
+    setattr(CalibratedLaw, _name, property(operator.attrgetter("_found." + _name), doc=_doc))
+
+
+def calibrate(I, mu, I_error=None, mu_error=None, *, nu, form="auto", draws=200, names=None, progress: bool | None = None) -> CalibratedLaw:  # noqa: E741
     """Fits mu(I) robustly to points, as `drumlin calibrate` does to measured layers.
 
     I, mu: arrays of one run, or lists of arrays, one of each run, whose scatter tells the band. Errors are standard errors; without them
-    points count alike. nu: volume fraction of the bulk, which the law's file holds. form: "log", "log-linear", "table", "auto".
+    points count alike. nu: volume fraction of the bulk, which the law's file holds. form: "log", "log-linear", "table", "auto". draws: bootstrap
+    samples. All numbers are dimensionless. progress: shown or not; None: on a terminal alone.
     """
     if np.ndim(I[0]) == 0:
         I, mu = [I], [mu]  # noqa: E741
@@ -92,4 +110,5 @@ def calibrate(I, mu, I_error=None, mu_error=None, *, nu, form="auto", draws=200,
     names = [f"run {k + 1}" for k in range(len(runs))] if names is None else list(names)
     if len(names) != len(runs):
         raise InputError(f"names: are {len(names)} of {len(runs)} runs (allowed: one for each)")
-    return CalibratedLaw(_drumlin.calibrate(runs, names, float(nu), form, int(draws)))
+    with Progress("calibrate, draws", shown=progress) as bar:
+        return CalibratedLaw(runs, names, float(nu), form, int(draws), drawn=bar.to if bar.shown else None)

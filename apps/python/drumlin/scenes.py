@@ -3,12 +3,16 @@
 import json
 import operator
 import os
+import pathlib
+import tempfile
 
 import numpy as np
 
 from . import _drumlin
 from .errors import InputError
-from .inputs import file_name
+from .figures.result_files import contact_forces
+from .inputs import file_name, real
+from .progress import Progress
 
 
 def _toml_value(value, key):
@@ -60,50 +64,117 @@ def resolved(scene, changes=()):
 
 
 class Simulation:
-    """A scene of grains in time, step by step.
+    """A scene of grains in time, step by step, as its file or a caller between two steps says.
 
     scene: a path, a text of TOML or a dict with the same keys (`drumlin scene keys` lists them); changes: {"solver.tolerance": 1e-3}.
     Results do not depend on the number of threads.
 
-    x, z, v_x, v_z, spin, radius are read-only views of what the simulation computes with: they change with each step, copy what you keep.
-    Of a scene with outlets or sources they are copies, for there the arrays move. Units: d, sqrt(d/g), rho0 d^2; `scales` says what these are.
+    Numbers are in units of d, sqrt(d/g) and rho0 d^2 (`scales` says what these are), angles positive clockwise. Arrays of the grains are read-only views
+    of what the simulation computes with: they change with each step, copy what you keep. Of a scene with outlets or sources they are copies, for there
+    the arrays move.
+
+    What the set_ methods change holds from the next step on, as long as the same key of a stage would: friction and motions of walls to the end of the
+    stage, gravity until another stage changes it. They refuse what a scene file could not say. save() and pickle keep it.
 
     Threads may share a simulation: each call waits for the step that is at work.
     """
 
-    def __init__(self, scene, changes=(), threads=1):
-        self._scene = _drumlin.stepped_scene(*_text_and_name(scene), overrides_of(changes), threads)
+    def __init__(self, scene, changes=(), threads: int = 1):
+        self._scene, self._threads = _drumlin.stepped_scene(*_text_and_name(scene), overrides_of(changes), threads), threads
 
     def __repr__(self):
         return f"<simulation: {len(self.x)} grains, step {self.steps} of {self.steps_planned}, t = {self.time:.6g} sqrt(d/g)>"
 
-    def step(self):
-        """One step; returns its report."""
+    @classmethod
+    def load(cls, path, threads: int = 1):
+        """Goes on from a file that save() wrote, bit for bit."""
+        simulation = cls.__new__(cls)
+        simulation._scene, simulation._threads = _drumlin.continued_scene(file_name(path), threads), threads
+        return simulation
+
+    def __reduce__(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "simulation.h5"
+            self.save(file)
+            return _loaded, (type(self), file.read_bytes(), self._threads)
+
+    def step(self) -> dict:
+        """One step; returns its report: contacts, impacts, converged, sweeps, residual, penetration and overlap_mean, overlap_max in d."""
         return self._scene.step()
 
+    def save(self, path):
+        """Writes all that the next steps depend on, what was set included, for load()."""
+        self._scene.save(file_name(path))
+
     def save_snapshot(self, path):
+        """Writes a snapshot (docs/formats/snapshot.md), which `drumlin.read` reads."""
         self._scene.save_snapshot(file_name(path))
 
     @property
-    def forces(self):
-        """(n, 2) array: the force of each of `contacts` on its grain i, along x and z."""
-        contacts = self.contacts
-        n_x, n_z = contacts["normal_x"].astype(float), contacts["normal_z"].astype(float)
-        normal, tangential = contacts["impulse_n"] / self.time_step, contacts["impulse_t"] / self.time_step
-        return np.column_stack([normal * n_x + tangential * n_z, normal * n_z - tangential * n_x])
+    def contacts(self):
+        """Loaded contacts of the last step, a record array with the names of a snapshot: grains i and j (below 0: wall shape -1 - j), unit normal
+        (contacts, 2) from j to i, force_n and force_t on i along it and along (n_z, -n_x), force (contacts, 2) as a vector along x and z, rho0 g d^2."""
+        found = contact_forces(self._scene.contacts, self.time_step)
+        kinds = [(name, values.dtype, values.shape[1:]) for name, values in found.items()]
+        contacts = np.empty(len(found["i"]), kinds).view(np.recarray)
+        for name, values in found.items():
+            contacts[name] = values
+        return contacts
 
-    def run(self, stepped=None, steps=None):
-        """Steps to the end of the scene, or so many steps. `stepped(simulation, report)` is called after each; False from it ends the run.
-        Ctrl-C ends it after the step at hand, and the simulation can go on from there. Returns the number of steps done."""
+    def set_velocity(self, grains, v_x=None, v_z=None, spin=None):
+        """Gives grains other velocities. grains: an index, a slice or an array of indices or truth values; v_x, v_z in sqrt(g d), spin in sqrt(g/d): a
+        number or one for each; None: as before."""
+        now = [self.v_x, self.v_z, self.spin]
+        for k, values in enumerate((v_x, v_z, spin)):
+            if values is not None:
+                now[k] = now[k].copy()
+                now[k][grains] = real("velocity", values)
+        self._scene.set_velocities(*now)
+
+    def set_friction(self, grain_grain: float, grain_wall: float | None = None):
+        """Coefficients of friction between grains and, where another, with walls, in a scene with effects.friction; for all materials."""
+        self._scene.set_friction(grain_grain, grain_grain if grain_wall is None else grain_wall)
+
+    def set_gravity(self, x: float = 0.0, z: float = -1.0):
+        """Gravity along x and z, in units of g, in a scene with effects.gravity."""
+        self._scene.set_gravity(x, z)
+
+    def set_wall(self, name: str, velocity=(0.0, 0.0), spin: float = 0.0, center=(0.0, 0.0)):
+        """Lets a wall go on from where it is with a velocity (v_x, v_z) in sqrt(g d), turning by spin, sqrt(g/d), about a point (x, z), d, which moves
+        with it. Refused of a wall that a force moves, or that ends the stage when it has moved."""
+        self._scene.set_wall(name, tuple(velocity), spin, tuple(center))
+
+    def run(self, stepped=None, steps: int | None = None, progress: bool | None = None) -> int:
+        """Steps to the end of the scene, or so many steps; returns the number of steps done.
+
+        stepped(simulation, report) is called after each; False from it ends the run. Ctrl-C ends it after the step at hand, and the simulation can go
+        on from there. progress: shown or not; None: on a terminal alone."""
         done = 0
-        while not self.finished and (steps is None or done < steps):
-            report = self.step()
-            done += 1
-            if stepped is not None and stepped(self, report) is False:
-                break
+        with Progress("steps", self.steps_planned - self.steps if steps is None else steps, progress) as bar:
+            while not self.finished and (steps is None or done < steps):
+                report = self.step()
+                done += 1
+                bar.to(done)
+                if stepped is not None and stepped(self, report) is False:
+                    break
         return done
 
 
-for _name in ("x", "z", "v_x", "v_z", "spin", "radius", "mass", "id", "contacts", "walls", "wall_of_shape", "scales", "finished", "steps",
-              "steps_planned", "time", "time_step", "stage", "kinetic_energy"):
-    setattr(Simulation, _name, property(operator.attrgetter("_scene." + _name)))
+def _loaded(cls, content, threads):
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "simulation.h5"
+        file.write_bytes(content)
+        return cls.load(file, threads)
+
+
+for _name, _doc in {
+        "x": "Positions of the centres along x, (grains,), d.", "z": "Positions of the centres along z, (grains,), d.",
+        "v_x": "Velocities along x, (grains,), sqrt(g d).", "v_z": "Velocities along z, (grains,), sqrt(g d).",
+        "spin": "Angular velocities, clockwise, (grains,), sqrt(g/d); empty in a scene without spin.", "radius": "Radii, (grains,), d.",
+        "mass": "Masses, (grains,), rho0 d^2; a copy.", "id": "Numbers of the grains, (grains,), that stay with them where grains come and go; else empty.",
+        "walls": "Names of the walls, a list.", "wall_of_shape": "For each wall shape the number of its wall, a list.",
+        "scales": "Units in SI, a dict: length_m (d), time_s, density_kg_m3 (rho0), velocity_m_s, stress_Pa (rho0 g d).",
+        "finished": "Whether the scene is at its end.", "steps": "Number of steps done.", "steps_planned": "Number of steps of the scene, as far as known.",
+        "time": "Time since the start, sqrt(d/g).", "time_step": "Length of the last step, sqrt(d/g).", "stage": "Name of the stage of the last step.",
+        "kinetic_energy": "Kinetic energy of all grains, of their spin too, rho0 g d^3."}.items():
+    setattr(Simulation, _name, property(operator.attrgetter("_scene." + _name), doc=_doc))

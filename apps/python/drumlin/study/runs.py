@@ -39,6 +39,7 @@ class Profile:
 
     @property
     def wall(self):
+        """z of the drum's wall, d."""
         return float(self.header.get("wall_z", self.z[0]))
 
 
@@ -62,10 +63,12 @@ class Run:
 
     @property
     def reduced(self):
+        """Whether it is a demo."""
         return self.profile.header["reduced"] == "true"
 
     @property
     def maps_file(self):
+        """Path of its maps.h5."""
         folder = pathlib.Path(self.folder)
         return (folder if self.start else folder / "measured") / "maps.h5"
 
