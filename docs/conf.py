@@ -1,4 +1,5 @@
-"""The manual as a site: docs/build writes it. README.md is its first page; commands and the Python package tell of themselves."""
+"""The manual as a site: docs/build writes it. README.md is its first page; commands and the Python package tell of themselves, notebooks are executed
+where DRUMLIN_NOTEBOOKS is set."""
 
 import os
 import pathlib
@@ -13,8 +14,10 @@ sys.path.insert(0, str(BUILD / "python"))
 project = "Drumlin"
 version = release = re.search(r"project\(drumlin VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
 copyright = "the founders of Drumlin"  # pylint: disable=redefined-builtin
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.mathjax"]
+NOTEBOOKS = "DRUMLIN_NOTEBOOKS" in os.environ
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.mathjax", *(["nbsphinx"] if NOTEBOOKS else [])]
 myst_enable_extensions = ["dollarmath", "amsmath"]
+nbsphinx_execute, nbsphinx_timeout = "always", 1800
 myst_heading_anchors = 4
 myst_update_mathjax = False
 mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"  # Debian's MathJax 2, beside the pages: docs/build copies it
@@ -23,7 +26,7 @@ html_theme = "furo"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_title = f"Drumlin {version}"
-exclude_patterns = ["figures", "cookbook/*.py"]
+exclude_patterns = ["figures", "cookbook/*.py", *([] if NOTEBOOKS else ["notebooks"])]
 suppress_warnings = ["myst.header"]
 
 
@@ -39,7 +42,7 @@ def commands():
 
 
 def python():
-    return "# The Python package\n\n[Recipes](cookbook/python.md)\n\n```{eval-rst}\n.. automodule:: drumlin\n   :members:\n   :imported-members:\n```\n"
+    return "# The Python package\n\n[Notebooks](cookbook/python.md)\n\n```{eval-rst}\n.. automodule:: drumlin\n   :members:\n   :imported-members:\n```\n"
 
 
 def links_within(text, here):
@@ -49,7 +52,7 @@ def links_within(text, here):
         if "://" in target or not target:
             return link[0]
         file = pathlib.Path(os.path.normpath(here / target))
-        inside = file.is_relative_to(ROOT / "docs") and file.suffix in (".md", ".png")
+        inside = file.is_relative_to(ROOT / "docs") and file.suffix in (".md", ".png", *([".ipynb"] if NOTEBOOKS else []))
         if file == ROOT / "README.md":
             return f"[{words}](/index.md)"
         return link[0] if inside else f"{words} (`{file.relative_to(ROOT) if file.is_relative_to(ROOT) else target}`)"
@@ -60,8 +63,9 @@ def links_within(text, here):
 def read(_, page, text):
     if page == "index":
         readme = links_within((ROOT / "README.md").read_text(encoding="utf-8"), ROOT)
-        text[0] = readme.replace("](docs/", "](") + "\n" + text[0]
-    else:
+        own = text[0] if NOTEBOOKS else re.sub(r"^notebooks/.*\n", "", text[0], flags=re.MULTILINE)
+        text[0] = readme.replace("](docs/", "](") + "\n" + own
+    elif not page.startswith("notebooks/"):
         text[0] = links_within(text[0], (ROOT / "docs" / page).parent)
     if page == "formats/README":
         text[0] += "\n```{toctree}\n:hidden:\n:glob:\n[!R]*\n```\n"

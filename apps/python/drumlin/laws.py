@@ -110,5 +110,5 @@ def calibrate(I, mu, I_error=None, mu_error=None, *, nu, form="auto", draws=200,
     names = [f"run {k + 1}" for k in range(len(runs))] if names is None else list(names)
     if len(names) != len(runs):
         raise InputError(f"names: are {len(names)} of {len(runs)} runs (allowed: one for each)")
-    with Progress("calibrate, draws", shown=progress) as bar:
+    with Progress("calibrate", shown=progress) as bar:
         return CalibratedLaw(runs, names, float(nu), form, int(draws), drawn=bar.to if bar.shown else None)

@@ -14,7 +14,8 @@ class Progress:
             try:
                 from tqdm import tqdm  # pylint: disable=import-outside-toplevel  # where it is installed
 
-                self._bar = tqdm(total=total, desc=what, bar_format=None if total else "{desc} {elapsed} {postfix}")
+                self._bar = tqdm(total=total, desc=what,
+                                 bar_format="{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}" if total else "{desc}: {elapsed}")
             except ModuleNotFoundError:
                 pass
 
@@ -40,5 +41,5 @@ class Progress:
             self._bar.n = self._bar.n if done is None else done
             self._bar.refresh()
             return
-        share = f" {done:.4g} of {self._total:.4g}" if done is not None and self._total else ""
-        print(f"\r{self._what}{share}, {now - self._start:.0f} s ", end="\n" if last else "", file=sys.stderr, flush=True)
+        share = f" {100 * done / self._total:.0f} %" if done is not None and self._total else ""
+        print(f"\r{self._what}:{share} {now - self._start:.0f} s ", end="\n" if last else "", file=sys.stderr, flush=True)
