@@ -1,6 +1,7 @@
 """Scenes from dicts and files, stepped with a callback."""
 
 import os
+import pickle
 import signal
 import tomllib
 
@@ -73,6 +74,9 @@ def test_a_scene_starts_with_the_grains_of_another_run(box, tmp_path):
     for name, unit in (("x", lambda s: s["length_m"]), ("v_z", lambda s: s["length_m"] / s["time_s"]), ("spin", lambda s: 1 / s["time_s"])):
         assert getattr(found, name) * unit(ours) == pytest.approx(left[name] * unit(theirs), rel=1e-9, abs=1e-12)
     assert found.run(steps=10) == 10
+    found.set_friction(0.1)
+    other = pickle.loads(pickle.dumps(found))
+    assert found.run(steps=10) == other.run(steps=10) and (found.x == other.x).all()
     follows["grains"]["from_run"]["time_s"] = 7.0
     with pytest.raises(drumlin.InputError, match="grains.from_run.time_s.*the nearest one is 0.3"):
         drumlin.Simulation(follows)
