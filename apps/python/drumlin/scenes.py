@@ -73,8 +73,9 @@ class Simulation:
     of what the simulation computes with: they change with each step, copy what you keep. Of a scene with outlets or sources they are copies, for there
     the arrays move.
 
-    What the set_ methods change holds from the next step on, as long as the same key of a stage would: friction and motions of walls to the end of the
-    stage, gravity until another stage changes it. They refuse what a scene file could not say. save() and pickle keep it.
+    What set_velocity, set_friction, set_gravity and set_wall change holds from the next step on, as long as the same key of a stage would: friction and
+    motions of walls to the end of the stage, gravity until another stage changes it. They refuse what a scene file could not say. save() and pickle
+    keep it.
 
     Threads may share a simulation: each call waits for the step that is at work.
     """
