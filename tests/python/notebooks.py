@@ -8,6 +8,7 @@ import os
 import pathlib
 import subprocess
 import sys
+import tempfile
 
 
 def executed(notebook, package):
@@ -15,8 +16,9 @@ def executed(notebook, package):
     if any(cell["outputs"] or cell["execution_count"] is not None for cell in cells):
         return "is stored with outputs"
     program = "\n\n".join("".join(cell["source"]) for cell in cells)
-    done = subprocess.run([sys.executable, "-B", "-c", program], cwd=notebook.parent, capture_output=True, text=True, check=False,
-                          env=os.environ | {"PYTHONPATH": package, "MPLBACKEND": "agg"})
+    with tempfile.TemporaryDirectory() as results:
+        done = subprocess.run([sys.executable, "-B", "-c", program], cwd=notebook.parent, capture_output=True, text=True, check=False,
+                              env=os.environ | {"PYTHONPATH": package, "MPLBACKEND": "agg", "TMPDIR": results})
     return "" if done.returncode == 0 and done.stdout else done.stderr or "prints nothing"
 
 
