@@ -60,13 +60,22 @@ def links_within(text, here):
     return re.sub(r"(?<!!)\[([^\]\n]+)\]\(([^)\s]+)\)", plain, text)
 
 
+def with_keys(text):
+    """Below "Printed by `COMMAND`" what it prints."""
+    def printed(line):
+        program, *words = line[1].split()
+        return line[0] + "\n\n" + subprocess.run([BUILD / program, *words], check=True, capture_output=True, text=True).stdout
+
+    return re.sub("^Printed by `([^`]+)`.*$", printed, text, flags=re.MULTILINE)
+
+
 def read(_, page, text):
     if page == "index":
         readme = links_within((ROOT / "README.md").read_text(encoding="utf-8"), ROOT)
         own = text[0] if NOTEBOOKS else re.sub(r"^notebooks/.*\n", "", text[0], flags=re.MULTILINE)
         text[0] = readme.replace("](docs/", "](") + "\n" + own
     elif not page.startswith("notebooks/"):
-        text[0] = links_within(text[0], (ROOT / "docs" / page).parent)
+        text[0] = with_keys(links_within(text[0], (ROOT / "docs" / page).parent))
     if page == "formats/README":
         text[0] += "\n```{toctree}\n:hidden:\n:glob:\n[!R]*\n```\n"
 

@@ -208,7 +208,7 @@ class CommandLine {
                "Lists the shipped scenes, which every command finds by their names");
     CLI::App* keys =
         add_action("keys", SceneAction::keys, "Lists every key with unit, range, default and meaning");
-    keys->add_flag("--markdown", scene_.markdown, "As the table of docs/formats/scene.md");
+    keys->add_flag("--markdown", scene_.markdown, "As a table in Markdown");
   }
 
   CLI::App app_;

@@ -98,7 +98,7 @@ void add_import_options(CLI::App& command, ImportOptions& options) {
   add_overrides(command, options.overrides);
   command.add_flag("--keys", options.keys,
                    "Lists every key of a description with unit, range, default and meaning");
-  command.add_flag("--markdown", options.markdown, "With --keys: as the table of docs/formats/import.md");
+  command.add_flag("--markdown", options.markdown, "With --keys: as a table in Markdown");
   add_existing(command, options.existing, keep_what_is_done);
 }
 

@@ -181,12 +181,5 @@ TEST(FlowScene, ShippedScenesAreRead) {
         << name;
 }
 
-TEST(FlowScene, DocumentationHoldsEveryKey) {
-  std::ifstream stream(drumlin::test::docs_folder() / "formats/flow.md");
-  std::stringstream text;
-  text << stream.rdbuf();
-  expect_has(text.str(), keys_as_markdown(flow_scene_keys()));
-}
-
 }  // namespace
 }  // namespace drumlin::flow_scene_test

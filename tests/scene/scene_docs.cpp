@@ -1,23 +1,11 @@
-// docs/formats/scene.md lists the keys as the program knows them.
+// What the list of keys says.
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "particles/scene/scene_file.hpp"
-#include "tests/support/data_folder.hpp"
-#include "tests/support/says.hpp"
 
 namespace drumlin {
 using namespace particles;
 namespace {
-
-TEST(SceneDocs, HoldTheTableThatTheProgramPrints) {
-  std::ifstream page(drumlin::test::docs_folder() / "formats/scene.md");
-  std::ostringstream text;
-  text << page.rdbuf();
-  expect_has(text.str(), keys_as_markdown(scene_keys()));
-}
 
 TEST(SceneDocs, SayAnUnitInEveryKeyThatHasOne) {
   for (const auto& row : scene_keys()) {
