@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
+#include <span>
 
 #include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
@@ -43,62 +43,33 @@ std::string checked_reason(const std::string& reason) {
   return reason;
 }
 
-/// What an older version left: listed is what no later call of its command writes anew.
+/// What an older version left. Of an unfinished folder what stands in sub-folders: a call that goes on writes
+/// all else anew.
 Manifest first_manifest(const fs::path& folder, const std::string& command) {
-  Manifest manifest;
-  manifest.command = command;
+  Manifest manifest{.command = command, .complete = true, .accepted = {}, .files = {}};
   if (command == "run")
     manifest.complete = read_json(folder / "run.json", "drumlin-run-1").value("status", "") == "finished";
-  else
-    manifest.complete = (command != "flow" || fs::exists(folder / "flow.json")) &&
-                        (command != "import" || fs::exists(folder / "run.json"));
-  for (const std::string& name : files_below(folder)) {
-    const bool is_rewritten =
-        name == "run.json" || name.starts_with("checkpoint") || name == "iterations.csv";
-    if (!manifest.complete && is_rewritten) continue;
-    manifest.files[name].grows =
-        !manifest.complete && (name == "log.csv" || name == "energy.csv" || name == "series.csv");
-  }
+  else if (command == "flow" || command == "import")
+    manifest.complete = fs::exists(folder / (command == "flow" ? "flow.json" : "run.json"));
+  for (const std::string& name : files_below(folder))
+    if (manifest.complete || fs::path(name).has_parent_path()) manifest.files[name];
   return manifest;
 }
 
 /// The same manifest for the files as they are now.
 Manifest as_it_is(const fs::path& folder, const Manifest& before) {
-  std::set<std::pair<fs::path, fs::path>> kinds;
-  for (const auto& [name, entry] : before.files)
-    if (const fs::path path = name; path.has_parent_path())
-      kinds.emplace(path.parent_path(), path.extension());
+  const std::set<FileKind> kinds = kinds_in(before);
   Manifest now = before;
   now.files.clear();
   for (const std::string& name : files_below(folder)) {
     const auto old = before.files.find(name);
     const bool is_listed = old != before.files.end();
-    const bool is_of_kind = kinds.contains({fs::path(name).parent_path(), fs::path(name).extension()});
-    if (!can_be_listed(name) || (!is_listed && !is_of_kind)) continue;
-    const bool grows = is_listed && old->second.grows;
-    // Of what grows, the part that was summed; all of it, where nothing was.
-    const bool in_part = grows && !old->second.sum.checksum.empty();
-    now.files[name] = {file_sum(folder / name, in_part ? std::optional(old->second.sum.bytes) : std::nullopt),
+    if (!can_be_listed(name) || (!is_listed && !kinds.contains(kind_of_file(name)))) continue;
+    const bool grows = is_listed && old->second.grows;  // the part that was summed counts
+    now.files[name] = {file_sum(folder / name, grows ? std::optional(old->second.sum.bytes) : std::nullopt),
                        grows};
   }
   return now;
-}
-
-/// Files in which the two differ, by name.
-std::vector<std::string> differences(const Manifest& before, const Manifest& now) {
-  std::set<std::string> names;
-  for (const auto& [name, entry] : before.files)
-    if (!now.files.contains(name) || !(now.files.at(name) == entry)) names.insert(name);
-  for (const auto& [name, entry] : now.files)
-    if (!before.files.contains(name)) names.insert(name);
-  return {names.begin(), names.end()};
-}
-
-std::string named(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), most_named); ++i) text += (i > 0 ? ", " : "") + names[i];
-  if (names.size() > most_named) text += fmt::format(" and {} more", names.size() - most_named);
-  return text;
 }
 
 /// A manifest that can be read; damaged it counts as none.
@@ -126,21 +97,29 @@ std::string accept_one(const fs::path& folder, const std::string& reason, Source
   const auto old = readable_manifest(folder);
   const Manifest before = old ? *old : first_manifest(folder, command_of(folder).value_or("unknown"));
   Manifest now = as_it_is(folder, before);
-  const std::vector<std::string> changed = differences(old ? *old : Manifest{}, now);
   if (source == Source::accepted) now.source = source_now(folder, now);
   const bool of_another = now.source != before.source;
+  const auto listed = old ? old->files : decltype(old->files){};
+  auto files = now.files;
+  files.insert(listed.begin(), listed.end());
+  std::vector<std::string> changed;
+  std::string lines;
+  for (const auto& [name, entry] : files) {
+    const bool is_there = now.files.contains(name), was_there = listed.contains(name);
+    if (is_there && was_there && listed.at(name) == entry) continue;
+    changed.push_back(name);
+    lines += fmt::format("  {:8} {}\n", !is_there ? "missing" : was_there ? "changed" : "new", name);
+  }
   if (old && changed.empty() && !of_another) return "";
-  std::string what = old ? named(changed) : "all files";
+  const std::size_t named = std::min(changed.size(), most_named);
+  std::string what =
+      old ? fmt::format("{}", fmt::join(std::span(changed).first(named), ", ")) : std::string("all files");
+  if (old && changed.size() > named) what += fmt::format(" and {} more", changed.size() - named);
   if (of_another) what += changed.empty() ? "of another state of the run" : ", of another state of the run";
   now.accepted.push_back(fmt::format("{}: {} ({})", time_text(), reason, what));
   write_manifest(folder, now);
-  std::string text = fmt::format("{}: {} files accepted{}\n", folder.string(), changed.size(),
-                                 of_another ? ", and that they are of another state of the run" : "");
-  for (const std::string& name : changed) {
-    const bool is_there = now.files.contains(name), was_there = before.files.contains(name) && old;
-    text += fmt::format("  {:8} {}\n", !is_there ? "missing" : was_there ? "changed" : "new", name);
-  }
-  return text;
+  return fmt::format("{}: {} files accepted{}\n{}", folder.string(), changed.size(),
+                     of_another ? ", and that they are of another state of the run" : "", lines);
 }
 
 /// The inner result folders first: their files are none of the outer one.

@@ -21,7 +21,7 @@ std::vector<std::string> words_of(const FlowOptions& options) {
 
 int flow(const FlowOptions& options) {
   ProcessRequest request{.program = program_beside("drumlin-flow"), .words = words_of(options)};
-  request.pass_signals_on = true;
+  request.caught = interruption;
   const CaughtInterruptions caught;  // the child ends by them, and we with it
   const ProcessEnd end = run_process(request);
   require_loaded(end, "drumlin-flow");

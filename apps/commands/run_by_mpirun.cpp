@@ -46,7 +46,7 @@ int run_by_mpirun(const RunOptions& options) {
   }
   if (std::getenv("PATH") == nullptr)  // mpirun, which is then looked for there, does not do without
     request.environment.push_back("PATH=/usr/bin:/bin");
-  request.pass_signals_on = true;
+  request.caught = interruption;
   request.end_signal = SIGTERM;      // it ends its ranks
   const CaughtInterruptions caught;  // the job ends by them, and we with it
   const ProcessEnd end = run_process(request);

@@ -4,14 +4,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
-#include <string_view>
-
 #include "coupling/common/errors.hpp"
 #include "coupling/common/files/input_file.hpp"
 #include "coupling/common/files/last_whole.hpp"
-#include "coupling/common/files/own_folder.hpp"
 #include "coupling/common/files/text_file.hpp"
 
 namespace drumlin::apps {
@@ -54,10 +49,6 @@ std::vector<std::string> run_file_names() {
           "problems/*.h5"};
 }
 
-void RunTable::fail(const std::string& what) const {
-  throw IoError(file_.string() + ": cannot be " + what + ": " + std::strerror(errno));
-}
-
 RunTable::RunTable(const fs::path& file, const std::string& header, std::int64_t keep_bytes) : file_(file) {
   if (keep_bytes > 0) {
     if (!fs::exists(file) || fs::file_size(file) < static_cast<std::uintmax_t>(keep_bytes))
@@ -68,17 +59,13 @@ RunTable::RunTable(const fs::path& file, const std::string& header, std::int64_t
   refuse_special(file);
   const Descriptor folder = open_folder(file.parent_path());
   if (folder.number() >= 0)
-    descriptor_ = ::openat(folder.number(), file.filename().c_str(),
-                           O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail("opened");
-  if (::ftruncate(descriptor_, keep_bytes) != 0 || ::lseek(descriptor_, 0, SEEK_END) != keep_bytes)
-    fail("cut back");
+    opened_ = Descriptor(::openat(folder.number(), file.filename().c_str(),
+                                  O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666));
+  if (opened_.number() < 0) throw_io_error(file, "opened");
+  if (::ftruncate(opened_.number(), keep_bytes) != 0 || ::lseek(opened_.number(), 0, SEEK_END) != keep_bytes)
+    throw_io_error(file, "cut back");
   bytes_ = keep_bytes;
   if (keep_bytes == 0) write(header);
-}
-
-RunTable::~RunTable() {
-  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 void RunTable::write(const std::string& line) {
@@ -89,18 +76,14 @@ void RunTable::write(const std::string& line) {
 }
 
 void RunTable::drain() {
-  while (!waiting_.empty()) {
-    const ssize_t written = ::write(descriptor_, waiting_.data(), waiting_.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail("written");
-    waiting_.erase(0, static_cast<std::size_t>(written));
-  }
+  if (!opened_.write(waiting_)) throw_io_error(file_, "written");
+  waiting_.clear();
 }
 
 std::int64_t RunTable::flush() {
   drain();
   // A checkpoint that outlives a power cut must not speak of lines that did not.
-  if (::fsync(descriptor_) != 0) fail("forced to the disk");
+  if (::fsync(opened_.number()) != 0) throw_io_error(file_, "forced to the disk");
   return bytes_;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "coupling/common/files/manifest.hpp"
+#include "coupling/common/files/own_folder.hpp"
 #include "particles/scene/scene.hpp"
 
 namespace drumlin::apps {
@@ -28,9 +29,6 @@ class RunTable {
   /// `header` begins a new file; with `keep_bytes` > 0 the file must be there with at least so many bytes
   /// (InputError).
   RunTable(const std::filesystem::path& file, const std::string& header, std::int64_t keep_bytes);
-  ~RunTable();
-  RunTable(const RunTable&) = delete;
-  RunTable& operator=(const RunTable&) = delete;
 
   void write(const std::string& line);
   /// Everything so far reaches the disk (else IoError); returns the length of the file.
@@ -40,9 +38,8 @@ class RunTable {
 
  private:
   void drain();
-  [[noreturn]] void fail(const std::string& what) const;
   std::filesystem::path file_;
-  int descriptor_ = -1;
+  Descriptor opened_{-1};
   std::string waiting_;  ///< not yet handed to the system
   Checksum sum_;
   std::int64_t bytes_ = 0;

@@ -1,13 +1,7 @@
 #include "apps/output/figures.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -43,37 +37,13 @@ void require_success(const ProcessEnd& end, const std::string& script, const std
     throw IoError(fmt::format("{} failed:\n{}", fs::path(script).filename().string(), said));
 }
 
-/// A pipe to the standard input of a script.
-class Answers {
- public:
-  Answers() {
-    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) throw IoError(fmt::format("a pipe: {}", std::strerror(errno)));
-  }
-  ~Answers() {
-    for (const int end : ends_) ::close(end);
-  }
-  Answers(const Answers&) = delete;
-  Answers& operator=(const Answers&) = delete;
-  int read_end() const { return ends_[0]; }
-  void write(const std::string& text) const {
-    for (std::size_t done = 0; done < text.size();) {
-      const ssize_t count = ::write(ends_[1], text.data() + done, text.size() - done);
-      if (count < 0 && errno != EINTR) throw IoError(fmt::format("a pipe: {}", std::strerror(errno)));
-      done += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
-    }
-  }
-
- private:
-  std::array<int, 2> ends_{-1, -1};
-};
-
 /// Runs a script and hands over what it printed.
 ProcessEnd end_of_script(const std::string& script, const std::vector<std::string>& arguments,
                          std::string& said) {
   ProcessRequest request = request_for(script, arguments);
   // Standard output stays free for the command's own results (--json).
   request.line = [&](const std::string& line) { said += line + "\n"; };
-  request.pass_signals_on = true;
+  request.caught = interruption;
   const CaughtInterruptions caught;  // the script ends by them, and we with it
   const ProcessEnd end = run_process(request);
   stop_if_interrupted();
@@ -99,15 +69,15 @@ std::string study_by_script(const std::vector<std::string>& arguments) {
 
 void work_for_script(const std::string& script, const std::function<Json(const Json&)>& answer) {
   ProcessRequest request = request_for(script, {});
-  const Answers answers;
-  request.input = answers.read_end();
+  const Pipe answers = open_pipe();  // to its standard input
+  request.input = answers.out.number();
   std::string said;
   request.line = [&](const std::string& line) {
     stop_if_interrupted();
-    if (line.starts_with("{"))
-      answers.write(answer(Json::parse(line)).dump() + "\n");
-    else
+    if (!line.starts_with("{"))
       said += line + "\n";
+    else if (!answers.in.write(answer(Json::parse(line)).dump() + "\n"))
+      throw_io_error("a pipe", "written");
   };
   const CaughtInterruptions caught;  // what is at work takes notice, and the script ends with it
   require_success(run_process(request), script, said);

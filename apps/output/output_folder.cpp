@@ -4,11 +4,8 @@
 #include <fmt/format.h>
 #include <fnmatch.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <set>
 #include <utility>
 
@@ -25,25 +22,11 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char *staging_name = ".drumlin-new", *replaced_name = "replaced";
-constexpr const char* publication_name = ".drumlin-publication";
 
-/// What the system alone says of a folder of this user, so that nobody can plant another one in its place:
-/// its number and when it was made. Empty: it is a link or of somebody else.
-std::string identity_of(const fs::path& folder) {
-  struct statx found {};
-  if (::statx(AT_FDCWD, folder.c_str(), AT_SYMLINK_NOFOLLOW, STATX_BASIC_STATS | STATX_BTIME, &found) != 0 ||
-      !S_ISDIR(found.stx_mode) || found.stx_uid != ::geteuid())
-    return "";
-  return fmt::format("{} {}.{:09}\n", found.stx_ino, found.stx_btime.tv_sec, found.stx_btime.tv_nsec);
-}
-
-/// Whether publish() of this user had all new results there, and was ended while it put them in their places.
+/// Whether publish() had all new results there, and was ended while it put them in their places.
 bool is_being_published(const fs::path& folder) {
   const fs::path staging = folder / staging_name;
-  const std::string identity = identity_of(staging);
-  return !identity.empty() && has_manifest(staging) &&
-         fs::is_regular_file(fs::symlink_status(staging / publication_name)) &&
-         file_text(staging / publication_name) == identity;
+  return fs::is_directory(fs::symlink_status(staging)) && has_manifest(staging);
 }
 
 /// Nothing but what a command leaves that was killed: empty folders, files aside.
@@ -120,6 +103,7 @@ void remove_empty_folders(const fs::path& folder, const std::vector<std::string>
 void take_over(const fs::path& folder) {
   const fs::path staging = folder / staging_name;
   const Manifest fresh = read_manifest(staging);
+  refuse_links(staging, names_in(fresh));
   const Manifest old = has_manifest(folder) ? read_manifest(folder) : Manifest{};
   std::vector<std::string> gone;
   for (const auto& [name, entry] : old.files)
@@ -146,15 +130,19 @@ void add_inner(const fs::path& inner, const fs::path& place, std::set<std::strin
   names.insert((place / manifest_name).generic_string());
 }
 
+/// Whether a name is of one of these patterns, whose * does not stand for /.
+bool is_of(const std::vector<std::string>& patterns, const std::string& name) {
+  return std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
+    return ::fnmatch(pattern.c_str(), name.c_str(), FNM_PATHNAME) == 0;
+  });
+}
+
 /// Listed files, and those that the command knows, of a folder and of the result folders in it.
 std::vector<std::string> our_files(const fs::path& folder, const std::vector<std::string>& known) {
   std::set<std::string> names;
   for (const auto& [name, entry] : read_manifest(folder).files) names.insert(name);
   for (const std::string& name : files_below(folder))
-    if (std::any_of(known.begin(), known.end(), [&](const std::string& pattern) {
-          return ::fnmatch(pattern.c_str(), name.c_str(), FNM_PATHNAME) == 0;
-        }))
-      names.insert(name);
+    if (is_of(known, name)) names.insert(name);
   for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator();
        ++entry) {
     if (!entry->is_directory() || entry->is_symlink()) continue;
@@ -204,41 +192,30 @@ bool is_half_aside(const fs::path& folder) {
          });
 }
 
-template <class Action>
-auto with_io_errors(Action action) {
-  try {
-    return action();
-  } catch (const fs::filesystem_error& error) {
-    throw IoError(error.what());
-  }
-}
-
 }  // namespace
 
 FolderLock claim(const OutputRequest& request) {
-  return with_io_errors([&] {
-    const fs::path& folder = request.folder;
-    if (folder.empty()) throw InputError("the output folder has no name");
-    refuse_foreign(folder);
-    if (fs::is_symlink(fs::symlink_status(folder)))
-      throw InputError(folder.string() + ": is a symbolic link; name the folder that it leads to");
-    make_folders(folder);
-    FolderLock lock(folder / folder_lock_name, "drumlin " + request.command);
-    refuse_foreign(folder);
-    const bool half_published = is_being_published(folder);
-    if ((half_published || !holds_nothing(folder)) && request.existing == ExistingOutput::refuse)
-      throw InputError(folder.string() +
-                       (request.goes_on
-                            ? ": exists already; give --resume or --overwrite, or name another folder"
-                            : ": exists already; give --overwrite, or name another folder"));
-    refuse_other_command(folder, request.command);
-    if (request.existing == ExistingOutput::overwrite) refuse_inside(folder, request.inputs);
-    if (has_manifest(folder)) refuse_links(folder, names_in(read_manifest(folder)));
-    if (half_published) take_over(folder);
-    fs::remove_all(folder / staging_name);
-    remove_left_aside(folder);
-    return lock;
-  });
+  const fs::path& folder = request.folder;
+  if (folder.empty()) throw InputError("the output folder has no name");
+  refuse_foreign(folder);
+  if (fs::is_symlink(fs::symlink_status(folder)))
+    throw InputError(folder.string() + ": is a symbolic link; name the folder that it leads to");
+  make_folders(folder);
+  FolderLock lock(folder / folder_lock_name, "drumlin " + request.command);
+  refuse_foreign(folder);
+  const bool half_published = is_being_published(folder);
+  if ((half_published || !holds_nothing(folder)) && request.existing == ExistingOutput::refuse)
+    throw InputError(folder.string() +
+                     (request.goes_on
+                          ? ": exists already; give --resume or --overwrite, or name another folder"
+                          : ": exists already; give --overwrite, or name another folder"));
+  refuse_other_command(folder, request.command);
+  if (request.existing == ExistingOutput::overwrite) refuse_inside(folder, request.inputs);
+  if (has_manifest(folder)) refuse_links(folder, names_in(read_manifest(folder)));
+  if (half_published) take_over(folder);
+  fs::remove_all(folder / staging_name);
+  remove_left_aside(folder);
+  return lock;
 }
 
 StagedOutput::StagedOutput(OutputRequest request)
@@ -248,7 +225,7 @@ StagedOutput::StagedOutput(OutputRequest request)
       staging_(request_.folder / staging_name) {
   // New, and of this user alone: nobody plants a link where results and figures are about to be written.
   if (::mkdirat(open_folder(request_.folder).number(), staging_name, S_IRWXU) != 0)
-    throw IoError(fmt::format("{}: cannot be made: {}", staging_.string(), std::strerror(errno)));
+    throw_io_error(staging_, "made");
 }
 
 StagedOutput::~StagedOutput() {
@@ -259,46 +236,41 @@ StagedOutput::~StagedOutput() {
 }
 
 void StagedOutput::publish() {
-  with_io_errors([&] {
-    Manifest manifest;
-    manifest.command = request_.command;
-    manifest.complete = true;
-    manifest.source = request_.source;
-    manifest.asked = request_.asked;
-    manifest.files = entries_of(staging_, files_below(staging_));
-    const Manifest old = has_manifest(request_.folder) ? read_manifest(request_.folder) : Manifest{};
-    refuse_links(request_.folder, names_in(manifest));
-    for (const auto& [name, entry] : manifest.files) {
-      const fs::path there = request_.folder / name;
-      if (fs::exists(fs::symlink_status(there)) && !old.files.contains(name))
-        throw InputError(there.string() +
-                         ": is not of this program and stands where a result is to go; move it");
-      force_to_disk(staging_ / name);
-    }
-    replace_file(staging_ / publication_name, identity_of(staging_));
-    write_manifest(staging_, manifest);
-    take_over(request_.folder);
-  });
+  const Manifest manifest{.command = request_.command,
+                          .complete = true,
+                          .accepted = {},
+                          .files = entries_of(staging_, files_below(staging_)),
+                          .source = request_.source,
+                          .asked = request_.asked};
+  const Manifest old = has_manifest(request_.folder) ? read_manifest(request_.folder) : Manifest{};
+  refuse_links(request_.folder, names_in(manifest));
+  for (const auto& [name, entry] : manifest.files) {
+    const fs::path there = request_.folder / name;
+    if (fs::exists(fs::symlink_status(there)) && !old.files.contains(name))
+      throw InputError(there.string() +
+                       ": is not of this program and stands where a result is to go; move it");
+    force_to_disk(staging_ / name);
+  }
+  write_manifest(staging_, manifest);
+  take_over(request_.folder);
 }
 
 GrowingOutput::GrowingOutput(OutputRequest request, std::vector<std::string> known)
     : request_(std::move(request)), known_(std::move(known)), lock_(claim(request_)) {
-  with_io_errors([&] {
-    const bool is_there = has_manifest(request_.folder);
-    refuse_links(request_.folder, known_);
-    refuse_links(request_.folder, {std::string(replaced_name) + "/" + manifest_name});
-    if (is_there && request_.existing == ExistingOutput::resume && !is_half_aside(request_.folder)) {
-      const ResultFolder there = open_result_folder(request_.folder);
-      check_all_files(there);
-      manifest_ = *there.manifest;
-      manifest_.asked = request_.asked;
-      return;
-    }
-    if (is_there) set_aside(request_.folder, known_);
-    manifest_.command = request_.command;
+  const bool is_there = has_manifest(request_.folder);
+  refuse_links(request_.folder, known_);
+  refuse_links(request_.folder, {std::string(replaced_name) + "/" + manifest_name});
+  if (is_there && request_.existing == ExistingOutput::resume && !is_half_aside(request_.folder)) {
+    const ResultFolder there = open_result_folder(request_.folder);
+    check_all_files(there);
+    manifest_ = *there.manifest;
     manifest_.asked = request_.asked;
-    save();
-  });
+    return;
+  }
+  if (is_there) set_aside(request_.folder, known_);
+  manifest_.command = request_.command;
+  manifest_.asked = request_.asked;
+  save();
 }
 
 void GrowingOutput::list(const std::string& name) {
@@ -306,9 +278,7 @@ void GrowingOutput::list(const std::string& name) {
 }
 
 void GrowingOutput::forget(const std::string& pattern) {
-  std::erase_if(manifest_.files, [&](const auto& file) {
-    return ::fnmatch(pattern.c_str(), file.first.c_str(), FNM_PATHNAME) == 0;
-  });
+  std::erase_if(manifest_.files, [&](const auto& file) { return is_of({pattern}, file.first); });
 }
 
 void GrowingOutput::save() const {
@@ -318,19 +288,14 @@ void GrowingOutput::save() const {
 }
 
 void GrowingOutput::finish() {
-  with_io_errors([&] {
-    for (const std::string& name : files_below(request_.folder)) {
-      const auto entry = manifest_.files.find(name);
-      const bool is_ours = std::any_of(known_.begin(), known_.end(), [&](const std::string& pattern) {
-        return ::fnmatch(pattern.c_str(), name.c_str(), FNM_PATHNAME) == 0;
-      });
-      if (is_ours && (entry == manifest_.files.end() || entry->second.grows)) list(name);
-    }
-    manifest_.complete = true;
-    write_manifest(request_.folder, manifest_);
-    const fs::path aside = request_.folder / replaced_name;
-    if (has_manifest(aside)) fs::remove_all(aside);
-  });
+  for (const std::string& name : files_below(request_.folder)) {
+    const auto entry = manifest_.files.find(name);
+    if (is_of(known_, name) && (entry == manifest_.files.end() || entry->second.grows)) list(name);
+  }
+  manifest_.complete = true;
+  write_manifest(request_.folder, manifest_);
+  const fs::path aside = request_.folder / replaced_name;
+  if (has_manifest(aside)) fs::remove_all(aside);
 }
 
 bool holds_results(const fs::path& folder, const std::string& finished) {
@@ -342,19 +307,17 @@ bool holds_results(const fs::path& folder, const std::string& finished) {
 }
 
 FolderLock prepare_output_file(const fs::path& file, ExistingOutput existing) {
-  return with_io_errors([&] {
-    if (file.empty()) throw InputError("the output file has no name");
-    refuse_special(file);
-    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-    if (has_manifest(folder) && read_manifest(folder).files.contains(file.filename().string()))
-      throw InputError(file.string() + ": is one of the results in its folder; name another file");
-    if (fs::is_directory(file)) throw InputError(file.string() + ": is a folder, a file is needed");
-    if (fs::exists(file) && existing == ExistingOutput::refuse)
-      throw InputError(file.string() + ": exists already; give --overwrite, or name another file");
-    make_folders(folder);
-    return FolderLock(folder / ("." + file.filename().string() + folder_lock_name),
-                      "drumlin, for " + file.filename().string());
-  });
+  if (file.empty()) throw InputError("the output file has no name");
+  refuse_special(file);
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (has_manifest(folder) && read_manifest(folder).files.contains(file.filename().string()))
+    throw InputError(file.string() + ": is one of the results in its folder; name another file");
+  if (fs::is_directory(file)) throw InputError(file.string() + ": is a folder, a file is needed");
+  if (fs::exists(file) && existing == ExistingOutput::refuse)
+    throw InputError(file.string() + ": exists already; give --overwrite, or name another file");
+  make_folders(folder);
+  return FolderLock(folder / ("." + file.filename().string() + folder_lock_name),
+                    "drumlin, for " + file.filename().string());
 }
 
 }  // namespace drumlin::apps

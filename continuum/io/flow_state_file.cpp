@@ -84,7 +84,7 @@ void keep_flow_checkpoint(const std::filesystem::path& flow_run, const FlowCheck
   out.add_text("scene", checkpoint.scene);
   out.add_text("law", checkpoint.law);
   put(checkpoint.at.state, out);
-  out.save_keeping(flow_run / checkpoint_name, flow_run / previous_checkpoint_name);
+  out.save(flow_run / checkpoint_name, flow_run / previous_checkpoint_name);
 }
 
 FlowCheckpoint read_flow_checkpoint(const std::filesystem::path& file) {

@@ -166,9 +166,8 @@ std::string H5Writer::image() const {
   bytes += h5_trailer(h5_checksum(bytes));
   return bytes;
 }
-void H5Writer::save(const std::filesystem::path& file) const { replace_file(file, image()); }
-void H5Writer::save_keeping(const std::filesystem::path& file, const std::filesystem::path& previous) const {
-  replace_file_keeping(file, previous, image());
+void H5Writer::save(const std::filesystem::path& file, const std::filesystem::path& previous) const {
+  replace_file(file, image(), previous);
 }
 
 H5FileWriter::H5FileWriter(const std::filesystem::path& file) : H5Content(nullptr), aside_(file) {
@@ -220,17 +219,10 @@ std::vector<std::uint64_t> H5FileWriter::end_content() {
   return std::exchange(places_, {});
 }
 
-void H5FileWriter::close() {
+void H5FileWriter::save(const std::filesystem::path& previous) {
   if (!ended_) (void)end_content();
   append_checksum(aside_.path());
-}
-void H5FileWriter::save() {
-  close();
-  aside_.take_the_place();
-}
-void H5FileWriter::save_keeping(const std::filesystem::path& previous) {
-  close();
-  aside_.take_the_place_keeping(previous);
+  aside_.take_the_place(previous);
 }
 
 }  // namespace drumlin

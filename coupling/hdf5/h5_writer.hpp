@@ -45,18 +45,15 @@ class H5Writer : public H5Content {
   H5Writer();
   /// The bytes of the whole file, with its checksum.
   std::string image() const;
-  /// Writes them. Throws IoError; an older file of that name is then untouched.
-  void save(const std::filesystem::path& file) const;
-  /// The same, the older file staying under the name `previous`.
-  void save_keeping(const std::filesystem::path& file, const std::filesystem::path& previous) const;
+  /// Writes them as replace_file().
+  void save(const std::filesystem::path& file, const std::filesystem::path& previous = {}) const;
 };
 
 /// The same file, byte for byte, made on the disk: for tables that are never in memory as a whole, and arrays
 /// that others write.
 class H5FileWriter : public H5Content {
  public:
-  /// Throws IoError; so do all members. The older file of that name is untouched until save() or
-  /// save_keeping().
+  /// Throws IoError; so do all members. The older file of that name is untouched until save().
   explicit H5FileWriter(const std::filesystem::path& file);
   ~H5FileWriter();
   /// A table of `rows` rows whose first ones are `values`, a whole number of rows; the others follow by
@@ -73,14 +70,10 @@ class H5FileWriter : public H5Content {
   std::vector<std::uint64_t> end_content();
   /// The file as long as it is in the making.
   const std::filesystem::path& aside() const { return aside_.path(); }
-  /// Closes it by its checksum and puts it in its place. Nothing is added after it.
-  void save();
-  /// The same, the older file staying under the name `previous`.
-  void save_keeping(const std::filesystem::path& previous);
+  /// Closes it by its checksum and puts it in its place, as FileInTheMaking does. Nothing is added after it.
+  void save(const std::filesystem::path& previous = {});
 
  private:
-  void close();
-
   FileInTheMaking aside_;
   std::vector<std::uint64_t> places_;  // of the arrays begun
   bool ended_ = false;                 // end_content()

@@ -15,8 +15,6 @@
 #include "particles/io/checkpoint_traffic.hpp"
 
 namespace drumlin::particles {
-namespace {}  // namespace
-
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
   H5Writer out;
   add_checkpoint(checkpoint, out);
@@ -30,7 +28,7 @@ std::string checkpoint_image(const Checkpoint& checkpoint) {
 }
 
 void keep_checkpoint(const std::filesystem::path& run, const std::string& image) {
-  replace_file_keeping(run / checkpoint_name, run / previous_checkpoint_name, image);
+  replace_file(run / checkpoint_name, image, run / previous_checkpoint_name);
 }
 
 void keep_checkpoint(const std::filesystem::path& run, const Checkpoint& checkpoint) {

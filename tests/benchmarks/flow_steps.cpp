@@ -1,12 +1,14 @@
 #include "tests/benchmarks/flow_steps.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <optional>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/machine/child_process.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/lab/any_solver.hpp"
 #include "particles/scene/scene_file.hpp"
@@ -97,12 +99,20 @@ double peak_memory_mb(const Scene& like, int discs, const std::filesystem::path&
   const Scene scene = drum_of(like, discs);
   (void)flowing_state(scene, cache);  // so that the process only reads it
   // A program of its own would not inherit what this one has in memory; called first, there is little.
-  const ProcessEnd end = run_in_copy([&] {
+  const auto work = [&]() noexcept {
     Simulation simulation(scene, flowing_state(scene, cache));
     for (int k = 0; k < 100 && !simulation.finished(); ++k) (void)simulation.step();
-  });
-  if (!end.succeeded()) throw IoError("the process that shows how much memory a drum takes failed");
-  return end.peak_memory_mb;
+  };
+  const pid_t copy = ::fork();
+  if (copy == 0) {
+    work();
+    ::_exit(0);
+  }
+  int status = 0;
+  rusage usage{};
+  if (::wait4(copy, &status, 0, &usage) != copy || status != 0)
+    throw IoError("the process that shows how much memory a drum takes failed");
+  return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
 }  // namespace drumlin::benchmark

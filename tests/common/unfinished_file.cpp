@@ -8,8 +8,6 @@
 #include <memory>
 #include <vector>
 
-#include "coupling/common/machine/child_process.hpp"
-
 namespace drumlin {
 namespace {
 
@@ -36,7 +34,7 @@ TEST_F(UnfinishedFiles, GoWithTheirObjectAndStayUnderTheirFinalName) {
 }
 
 TEST_F(UnfinishedFiles, GoBeforeASignalHandlerEndsTheProcess) {
-  const ProcessEnd end = run_in_copy([&] {
+  const auto end_within = [&] {
     const UnfinishedFile one(folder / "one"), two(folder / "two");
     {
       const UnfinishedFile before(folder / "before");
@@ -47,8 +45,8 @@ TEST_F(UnfinishedFiles, GoBeforeASignalHandlerEndsTheProcess) {
     write(two.path());
     remove_unfinished_files();
     ::_exit(7);
-  });
-  EXPECT_EQ(end.exit_code, 7);
+  };
+  EXPECT_EXIT(end_within(), ::testing::ExitedWithCode(7), "");
   EXPECT_FALSE(fs::exists(folder / "one"));
   EXPECT_FALSE(fs::exists(folder / "two"));
   EXPECT_TRUE(fs::exists(folder / "whole"));

@@ -59,8 +59,7 @@ TEST(TextFile, TakesThePlaceOfNoDeviceFifoOrSocket) {
 
 TEST(TextFile, TheFileBeforeStaysUnderItsOtherName) {
   const TemporaryFolder folder;
-  for (const char* text : {"first", "second", "third"})
-    replace_file_keeping(folder / "now", folder / "before", text);
+  for (const char* text : {"first", "second", "third"}) replace_file(folder / "now", text, folder / "before");
   EXPECT_EQ(file_text(folder / "now"), "third");
   EXPECT_EQ(file_text(folder / "before"), "second");
 }

@@ -3,31 +3,22 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <new>
-#include <stdexcept>
-
-#include "coupling/common/machine/child_process.hpp"
 
 namespace drumlin::apps {
 namespace {
 
 TEST(MemoryReserve, ServesOneFailureAndEndsLongWork) {
-  const auto end = run_in_copy([] {  // the handler belongs to the process
+  const auto in_a_process_of_its_own = [] {  // the handler belongs to the process
     keep_memory_in_reserve();
     end_if_memory_was_short();
-    const auto expect_end = [](auto work) {
-      try {
-        work();
-      } catch (const std::bad_alloc&) {
-        return;
-      }
-      throw std::runtime_error("no bad_alloc");
-    };
     std::get_new_handler()();  // gives the reserve: the allocation is tried again
-    expect_end(end_if_memory_was_short);
-    expect_end(std::get_new_handler());
-  });
-  EXPECT_TRUE(end.succeeded());
+    EXPECT_THROW(end_if_memory_was_short(), std::bad_alloc);
+    EXPECT_THROW(std::get_new_handler()(), std::bad_alloc);
+    std::_Exit(::testing::Test::HasFailure());
+  };
+  EXPECT_EXIT(in_a_process_of_its_own(), ::testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

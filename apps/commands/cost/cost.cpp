@@ -150,7 +150,7 @@ Json start(const Json& wish) {
                                       : ProcessOutput::with_errors;
   std::string said;
   request.line = [&](const std::string& line) { said += line + "\n"; };
-  request.pass_signals_on = true;
+  request.caught = interruption;
   const ProcessEnd end = run_process(request);
   stop_if_interrupted();
   const int code = end.shell_code();

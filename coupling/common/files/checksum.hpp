@@ -13,17 +13,13 @@ namespace drumlin {
 class Checksum {
  public:
   Checksum();
-  ~Checksum();
-  Checksum(Checksum&&) noexcept;
-  Checksum& operator=(Checksum&&) noexcept;
-
   void add(std::string_view bytes);
   /// Of all bytes so far, as 64 hexadecimal digits; more may follow.
   std::string text() const;
 
  private:
   struct Context;
-  std::unique_ptr<Context> context_;
+  std::unique_ptr<Context, void (*)(Context*)> context_;
 };
 
 /// The same of a text.

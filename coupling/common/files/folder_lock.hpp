@@ -19,18 +19,13 @@ class FolderLock {
  public:
   /// `command`: who holds it, for whom it keeps out. Throws InputError that names the holder (process,
   /// command, since when) if another one holds it, IoError if the file cannot be made.
-  FolderLock(std::filesystem::path file, const std::string& command);
-  ~FolderLock();
-  FolderLock(FolderLock&&) noexcept;
-  FolderLock& operator=(FolderLock&&) = delete;
-  FolderLock(const FolderLock&) = delete;
+  FolderLock(const std::filesystem::path& file, const std::string& command);
 
  private:
-  bool take(const std::string& command);
-  std::filesystem::path file_;
   std::optional<OwnFolder> own_;
-  int descriptor_ = -1;
-  std::unique_ptr<UnfinishedFile> named_;  // while it is held
+  Descriptor held_;
+  // Goes before it, while the lock is held: whoever has opened it meanwhile sees that it has gone.
+  std::unique_ptr<UnfinishedFile> named_;
 };
 
 /// Now, as "2026-03-14 15:09:26 UTC".

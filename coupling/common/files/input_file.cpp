@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
-#include <utility>
 
 #include "coupling/common/errors.hpp"
 
@@ -43,29 +41,22 @@ std::string size_text(std::uint64_t bytes) {
 
 }  // namespace
 
-InputFile::InputFile(const std::filesystem::path& file, std::uint64_t largest) : file_(file) {
-  // Without O_NONBLOCK the open itself would wait for somebody who writes into a FIFO.
-  descriptor_ = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
-  if (descriptor_ < 0) say_why_not_open(file);
+// Without O_NONBLOCK the open itself would wait for somebody who writes into a FIFO.
+InputFile::InputFile(const std::filesystem::path& file, std::uint64_t largest)
+    : file_(file), opened_(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) {
+  if (opened_.number() < 0) say_why_not_open(file);
   struct stat status {};
-  const bool known = ::fstat(descriptor_, &status) == 0;
+  if (::fstat(opened_.number(), &status) != 0) throw_io_error(file, "read");
   size_ = static_cast<std::uint64_t>(std::max<off_t>(0, status.st_size));
-  if (known && S_ISREG(status.st_mode) && size_ <= largest) return;
-  ::close(std::exchange(descriptor_, -1));
-  if (!known) throw_io_error(file, "read");
   if (S_ISDIR(status.st_mode)) refuse(file, "is a folder, not a file");
   if (!S_ISREG(status.st_mode)) refuse(file, kind_of(status.st_mode), "a regular file");
-  refuse(file, "is too large", "at most " + size_text(largest));
-}
-
-InputFile::~InputFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (size_ > largest) refuse(file, "is too large", "at most " + size_text(largest));
 }
 
 std::size_t InputFile::read(std::span<char> bytes) {
   std::size_t filled = 0;
   while (filled < bytes.size()) {
-    const ssize_t got = ::read(descriptor_, bytes.data() + filled, bytes.size() - filled);
+    const ssize_t got = ::read(opened_.number(), bytes.data() + filled, bytes.size() - filled);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw_io_error(file_, "read");
     if (got == 0) break;

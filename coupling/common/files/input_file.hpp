@@ -6,6 +6,8 @@
 #include <span>
 #include <string>
 
+#include "coupling/common/files/own_folder.hpp"
+
 namespace drumlin {
 
 /// Largest sizes, in bytes (docs/robustness.md). A drum of 100,000 grains leaves snapshots of 20 MB and logs
@@ -20,9 +22,6 @@ class InputFile {
   /// Throws InputError (file, what it is, what is allowed) if the file is missing, no regular file or larger
   /// than `largest` bytes; IoError if it cannot be opened.
   InputFile(const std::filesystem::path& file, std::uint64_t largest);
-  ~InputFile();
-  InputFile(const InputFile&) = delete;
-  InputFile& operator=(const InputFile&) = delete;
 
   std::uint64_t size() const { return size_; }  ///< when it was opened, in bytes
   /// Fills `bytes` as far as the file goes; returns how many that were, 0 at its end. Throws IoError.
@@ -30,7 +29,7 @@ class InputFile {
 
  private:
   std::filesystem::path file_;
-  int descriptor_ = -1;
+  Descriptor opened_;
   std::uint64_t size_ = 0;
 };
 

@@ -26,41 +26,30 @@ bool is_sum(std::string_view text) {
   return text.size() == sum_letters && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-/// Fills the manifest line by line; false where a line is none.
-class LineReader {
- public:
-  explicit LineReader(Manifest& manifest) : manifest_(manifest) {}
-
-  bool read(const std::string& line) {
-    if (const auto value = after(line, "# command = ")) return manifest_.command = *value, true;
-    if (const auto value = after(line, "# state = "))
-      return manifest_.complete = *value == "complete", manifest_.complete || *value == "unfinished";
-    if (const auto value = after(line, "# accepted = ")) return manifest_.accepted.push_back(*value), true;
-    if (const auto value = after(line, "# source = "))
-      return manifest_.source = *value, is_sum(manifest_.source);
-    if (const auto value = after(line, "# asked = "))
-      return manifest_.asked = *value, is_sum(manifest_.asked);
-    if (const auto value = after(line, "# bytes = ")) return read_size(*value);
-    if (line.size() <= sum_letters + 2 || line.compare(sum_letters, 2, "  ") != 0) return false;
-    const std::string name = line.substr(sum_letters + 2);
-    entry_.sum.checksum = line.substr(0, sum_letters);
-    return is_sum(entry_.sum.checksum) && can_be_listed(name) && manifest_.files.emplace(name, entry_).second;
+/// Takes a line of the manifest over, `entry` being the one whose size was read last; false where it is none.
+bool take_line(const std::string& line, Manifest& manifest, ManifestEntry& entry) {
+  std::string value;
+  const auto tells = [&](std::string_view key) {
+    if (line.starts_with(key)) value = line.substr(key.size());
+    return line.starts_with(key);
+  };
+  if (tells("# command = ")) return manifest.command = value, true;
+  if (tells("# state = "))
+    return manifest.complete = value == "complete", manifest.complete || value == "unfinished";
+  if (tells("# accepted = ")) return manifest.accepted.push_back(value), true;
+  if (tells("# source = ")) return is_sum(manifest.source = value);
+  if (tells("# asked = ")) return is_sum(manifest.asked = value);
+  if (tells("# bytes = ")) {
+    const char* const end = value.data() + value.size();
+    const auto [rest, fault] = std::from_chars(value.data(), end, entry.sum.bytes);
+    entry.grows = std::string_view(rest, end) == ", grows";
+    return fault == std::errc() && (rest == end || entry.grows);
   }
-
- private:
-  static std::optional<std::string> after(const std::string& line, std::string_view key) {
-    return line.starts_with(key) ? std::optional(line.substr(key.size())) : std::nullopt;
-  }
-  bool read_size(const std::string& text) {
-    const char* const end = text.data() + text.size();
-    const auto [rest, fault] = std::from_chars(text.data(), end, entry_.sum.bytes);
-    entry_.grows = std::string_view(rest, static_cast<std::size_t>(end - rest)) == ", grows";
-    return fault == std::errc() && (rest == end || entry_.grows);
-  }
-
-  Manifest& manifest_;
-  ManifestEntry entry_;
-};
+  if (line.size() <= sum_letters + 2 || line.compare(sum_letters, 2, "  ") != 0) return false;
+  const std::string name = line.substr(sum_letters + 2);
+  entry.sum.checksum = line.substr(0, sum_letters);
+  return is_sum(entry.sum.checksum) && can_be_listed(name) && manifest.files.emplace(name, entry).second;
+}
 
 /// All lines but the last.
 std::string summed_text(const Manifest& manifest) {
@@ -95,11 +84,11 @@ Manifest read_manifest(const fs::path& folder) {
                     "folder as it is",
                     file.string(), folder.string()));
   Manifest manifest;
-  LineReader reader(manifest);
+  ManifestEntry entry;
   std::istringstream lines(text.substr(first_line.size(), last - first_line.size()));
   int number = 1;
   for (std::string line; std::getline(lines, line);)
-    if (++number; !reader.read(line))
+    if (++number; !take_line(line, manifest, entry))
       throw InputError(
           {InputProblem{file.string(), number, 0, "", "'" + line + "' is no line of a manifest", ""}});
   return manifest;
@@ -109,6 +98,15 @@ std::vector<std::string> names_in(const Manifest& manifest) {
   std::vector<std::string> names;
   for (const auto& [name, entry] : manifest.files) names.push_back(name);
   return names;
+}
+
+FileKind kind_of_file(const fs::path& name) { return {name.parent_path(), name.extension()}; }
+
+std::set<FileKind> kinds_in(const Manifest& manifest) {
+  std::set<FileKind> kinds;
+  for (const std::string& name : names_in(manifest))
+    if (fs::path(name).has_parent_path()) kinds.insert(kind_of_file(name));
+  return kinds;
 }
 
 bool can_be_listed(const fs::path& name) {

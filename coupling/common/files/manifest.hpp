@@ -3,7 +3,9 @@
 // (docs/formats/manifest.md). It marks the folder as ours.
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coupling/common/files/checksum.hpp"
@@ -32,6 +34,12 @@ bool has_manifest(const std::filesystem::path& folder);
 
 /// The paths of its files.
 std::vector<std::string> names_in(const Manifest& manifest);
+
+/// Folder and ending: files that agree in both are of one kind, snapshots say.
+using FileKind = std::pair<std::filesystem::path, std::filesystem::path>;
+FileKind kind_of_file(const std::filesystem::path& name);
+/// Those of the files in sub-folders.
+std::set<FileKind> kinds_in(const Manifest& manifest);
 
 /// Whether a manifest may list a file by this path in its folder: plain names, none hidden, as deep as any
 /// command writes (measured/slices/1.csv).

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,8 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   int number() const { return number_; }
+  /// Writes all of it; false where the system does not take it (errno).
+  bool write(std::string_view bytes) const;
   /// Whether the system had nothing to say of what was written.
   bool close();
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <set>
 #include <utility>
 
 #include "coupling/common/errors.hpp"
@@ -38,26 +37,21 @@ std::string way_out(const fs::path& folder) {
 
 void check_size(const fs::path& file, const ManifestEntry& entry, Problems& problems) {
   std::error_code error;
-  const auto size = fs::is_regular_file(fs::symlink_status(file, error)) ? fs::file_size(file, error) : 0;
-  if (error || !fs::is_regular_file(fs::symlink_status(file, error)))
+  const bool is_there = fs::is_regular_file(fs::symlink_status(file, error));
+  const auto size = is_there ? fs::file_size(file, error) : 0;
+  if (error || !is_there)
     problems.push_back(problem(file, fmt::format("is missing; {} lists it", manifest_name)));
   else if (size < entry.sum.bytes || (size > entry.sum.bytes && !entry.grows))
     problems.push_back(
         problem(file, fmt::format("has {} bytes, {} in {}", size, entry.sum.bytes, manifest_name)));
 }
 
-/// Folder and ending: files that agree in both are of one kind.
-using Kind = std::pair<fs::path, fs::path>;
-Kind kind_of(const fs::path& name) { return {name.parent_path(), name.extension()}; }
-
 /// A snapshot too many is as wrong as one too few; files of others elsewhere do not matter.
 void check_extra(const ResultFolder& folder, Problems& problems) {
-  std::set<Kind> kinds;
-  for (const auto& [name, entry] : folder.manifest->files)
-    if (fs::path(name).has_parent_path()) kinds.insert(kind_of(name));
+  const std::set<FileKind> kinds = kinds_in(*folder.manifest);
   if (kinds.empty()) return;
   for (const std::string& name : files_below(folder.path))
-    if (kinds.contains(kind_of(name)) && !folder.manifest->files.contains(name))
+    if (kinds.contains(kind_of_file(name)) && !folder.manifest->files.contains(name))
       problems.push_back(problem(folder.path / name, fmt::format("is not listed in {}", manifest_name)));
 }
 

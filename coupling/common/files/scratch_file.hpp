@@ -10,35 +10,26 @@
 #include <utility>
 #include <vector>
 
+#include "coupling/common/files/own_folder.hpp"
+
 namespace drumlin {
 
-/// Bytes that grow at their end and are read anywhere. The newest of them are in memory, at most `in_memory`,
-/// all others in a file of `folder` that no folder lists: it vanishes with this object, however the process
-/// ends. What stays below `in_memory` touches no disk.
+/// Bytes that grow at their end and are read anywhere, in a file of `folder` that no folder lists: it
+/// vanishes with this object, however the process ends.
 class ScratchFile {
  public:
-  static constexpr std::size_t in_memory = std::size_t{1} << 24;
-
   explicit ScratchFile(std::filesystem::path folder = std::filesystem::temp_directory_path())
       : folder_(std::move(folder)) {}
-  ~ScratchFile();
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
 
-  /// Returns the place of the first byte. Throws IoError when the disk takes no more.
+  /// Returns the place of the first byte. Throws IoError when the folder takes no file, or the disk no more.
   std::uint64_t append(std::span<const std::byte> bytes);
   /// Fills `bytes` from `place` on, all of which must have been appended. Throws IoError.
   void read(std::uint64_t place, std::span<std::byte> bytes) const;
-  std::uint64_t size() const { return on_disk_ + newest_.size(); }
-  std::size_t bytes_in_memory() const { return newest_.capacity(); }
 
  private:
-  void write_out();
-
   std::filesystem::path folder_;
-  int descriptor_ = -1;
-  std::uint64_t on_disk_ = 0;
-  std::vector<std::byte> newest_;
+  Descriptor file_{-1};
+  std::uint64_t size_ = 0;
 };
 
 /// A list in a scratch file, which it may share with others: grows at its end, is read in order. Holds one

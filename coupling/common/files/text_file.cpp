@@ -1,18 +1,16 @@
 #include "coupling/common/files/text_file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/random.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <cstring>
-#include <optional>
+#include <cstdint>
 
 #include "coupling/common/errors.hpp"
 #include "coupling/common/files/input_file.hpp"
-#include "coupling/common/files/own_folder.hpp"
-#include "coupling/common/files/unfinished_file.hpp"
 
 namespace drumlin {
 
@@ -25,114 +23,50 @@ namespace fs = std::filesystem;
 constexpr std::string_view aside_begin = ".drumlin-", aside_end = ".part";
 constexpr std::size_t aside_letters = 32;
 
-std::string unguessable_name(const fs::path& file) {
-  std::array<unsigned char, aside_letters / 2> bytes{};
-  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-    throw_io_error(file, "written");
-  std::string name(aside_begin);
-  for (const unsigned char byte : bytes)
-    name += {"0123456789abcdef"[byte / 16], "0123456789abcdef"[byte % 16]};
-  return name.append(aside_end);
+fs::path unguessable_name_beside(const fs::path& file) {
+  std::array<std::uint64_t, 2> bits{};
+  if (::getrandom(bits.data(), sizeof bits, 0) != sizeof bits) throw_io_error(file, "written");
+  return file.parent_path() / fmt::format("{}{:016x}{:016x}{}", aside_begin, bits[0], bits[1], aside_end);
 }
 
-/// A file of the folder of `file` that takes its place when it is whole, and vanishes otherwise.
-class FileAside {
- public:
-  explicit FileAside(const fs::path& file)
-      : file_(file),
-        folder_(file.has_parent_path() ? file.parent_path() : "."),
-        descriptor_(open_folder(file.parent_path())) {
-    if (descriptor_.number() < 0) throw_io_error(file_, "written");
-    refuse_special(file_);
-  }
-  FileAside(const FileAside&) = delete;
-  FileAside& operator=(const FileAside&) = delete;
-
-  /// A new file.
-  Descriptor made() {
-    name_ = unguessable_name(file_);
-    unfinished_.emplace(folder_ / name_);
-    Descriptor aside(::openat(descriptor_.number(), name_.c_str(),
-                              O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
-    if (aside.number() < 0) throw_io_error(file_, "written");
-    return aside;
-  }
-
-  void write(std::string_view content) {
-    Descriptor aside = made();
-    while (!content.empty()) {
-      const ssize_t bytes = ::write(aside.number(), content.data(), content.size());
-      if (bytes < 0 && errno == EINTR) continue;
-      if (bytes < 0) throw_io_error(file_, "written");
-      content.remove_prefix(static_cast<std::size_t>(bytes));
-    }
-    settle(aside);
-  }
-
-  /// Forces it to the disk. Some file systems report a full disk only here.
-  void settle(Descriptor& aside) const {
-    if (::fsync(aside.number()) != 0 || !aside.close()) throw_io_error(file_, "written");
-  }
-
-  const fs::path& path() const { return unfinished_->path(); }
-
-  void take_the_place() {
-    if (!rename(name_, file_.filename())) throw_io_error(file_, "written");
-    if (::fsync(descriptor_.number()) != 0) throw_io_error(file_, "forced to the disk");
-  }
-
-  /// Gives the older file another name, if there is one.
-  void keep(const fs::path& previous) const {
-    if (!rename(file_.filename(), previous.filename()) && errno != ENOENT) throw_io_error(file_, "renamed");
-  }
-
-  /// Renames within the folder.
-  bool rename(const fs::path& from, const fs::path& to) const {
-    return ::renameat(descriptor_.number(), from.c_str(), descriptor_.number(), to.c_str()) == 0;
-  }
-
- private:
-  fs::path file_, folder_;
-  Descriptor descriptor_;
-  std::string name_;
-  std::optional<UnfinishedFile> unfinished_;  // removes it wherever this process ends before the rename
-};
+Descriptor folder_of(const fs::path& file) {
+  Descriptor folder = open_folder(file.parent_path());
+  if (folder.number() < 0) throw_io_error(file, "written");
+  refuse_special(file);
+  return folder;
+}
 
 }  // namespace
 
-void replace_file(const fs::path& file, std::string_view content) {
-  FileAside aside(file);
+FileInTheMaking::FileInTheMaking(const fs::path& file)
+    : file_(file),
+      folder_(folder_of(file)),
+      unfinished_(unguessable_name_beside(file)),
+      content_(::openat(folder_.number(), path().filename().c_str(),
+                        O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666)) {
+  if (content_.number() < 0) throw_io_error(file_, "written");
+}
+
+void FileInTheMaking::write(std::string_view content) {
+  if (!content_.write(content)) throw_io_error(file_, "written");
+}
+
+void FileInTheMaking::take_the_place(const fs::path& previous) {
+  const auto rename = [&](const fs::path& from, const fs::path& to) {
+    return ::renameat(folder_.number(), from.filename().c_str(), folder_.number(), to.filename().c_str()) ==
+           0;
+  };
+  // Some file systems report a full disk only here.
+  if (::fsync(content_.number()) != 0 || !content_.close()) throw_io_error(file_, "written");
+  if (!previous.empty() && !rename(file_, previous) && errno != ENOENT) throw_io_error(file_, "renamed");
+  if (!rename(path(), file_)) throw_io_error(file_, "written");
+  if (::fsync(folder_.number()) != 0) throw_io_error(file_, "forced to the disk");
+}
+
+void replace_file(const fs::path& file, std::string_view content, const fs::path& previous) {
+  FileInTheMaking aside(file);
   aside.write(content);
-  aside.take_the_place();
-}
-
-void replace_file_keeping(const fs::path& file, const fs::path& previous, std::string_view content) {
-  FileAside aside(file);
-  aside.write(content);
-  aside.keep(previous);
-  aside.take_the_place();
-}
-
-struct FileInTheMaking::Aside {
-  explicit Aside(const fs::path& file) : place(file), content(place.made()) {}
-  FileAside place;
-  Descriptor content;
-};
-
-FileInTheMaking::FileInTheMaking(const fs::path& file) : aside_(std::make_unique<Aside>(file)) {}
-FileInTheMaking::~FileInTheMaking() = default;
-
-const fs::path& FileInTheMaking::path() const { return aside_->place.path(); }
-
-void FileInTheMaking::take_the_place() {
-  aside_->place.settle(aside_->content);
-  aside_->place.take_the_place();
-}
-
-void FileInTheMaking::take_the_place_keeping(const fs::path& previous) {
-  aside_->place.settle(aside_->content);
-  aside_->place.keep(previous);
-  aside_->place.take_the_place();
+  aside.take_the_place(previous);
 }
 
 bool is_left_aside(const fs::path& file) {

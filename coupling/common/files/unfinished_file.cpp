@@ -3,64 +3,39 @@
 #include <unistd.h>
 
 #include <array>
-#include <atomic>
-#include <climits>
-#include <cstring>
 #include <thread>
 #include <utility>
 
 namespace drumlin {
 namespace {
 
-/// Who may touch the name of a slot: its owner while it is `written`, nobody else but a handler once `taken`.
-enum class Use : int { free, written, named, taken };
-static_assert(std::atomic<Use>::is_always_lock_free, "a signal handler reads it");
-
-struct Slot {
-  std::atomic<Use> use{Use::free};
-  std::array<char, PATH_MAX> name{};
-};
-
-// A signal handler finds nothing that is not static. More files at once than slots: the rest is removed by
-// their objects only.
-std::array<Slot, 8> slots;
-
-int noted(const std::filesystem::path& file) {
-  if (file.native().size() >= PATH_MAX) return -1;
-  for (std::size_t s = 0; s < slots.size(); ++s) {
-    Use expected = Use::free;
-    if (!slots[s].use.compare_exchange_strong(expected, Use::written)) continue;
-    std::memcpy(slots[s].name.data(), file.c_str(), file.native().size() + 1);
-    slots[s].use.store(Use::named);
-    return static_cast<int>(s);
-  }
-  return -1;
-}
-
-void forget(int slot) {
-  if (slot < 0) return;
-  Use expected = Use::named;
-  // A handler that has taken the name is about to remove the file and to end the process.
-  while (!slots[static_cast<std::size_t>(slot)].use.compare_exchange_weak(expected, Use::free)) {
-    expected = Use::named;
-    std::this_thread::yield();
-  }
-}
+/// Names of files, where a signal handler finds them: it can read nothing that is not static. nullptr: a free
+/// place; `taken`: a handler is about to remove the file and to end the process. More files at once than
+/// places: the rest is removed by their objects only.
+std::array<std::atomic<const char*>, 8> noted_names;
+static_assert(decltype(noted_names)::value_type::is_always_lock_free, "a signal handler reads it");
+constexpr char taken = 0;
 
 }  // namespace
 
-UnfinishedFile::UnfinishedFile(std::filesystem::path file) : file_(std::move(file)), slot_(noted(file_)) {}
+UnfinishedFile::UnfinishedFile(std::filesystem::path file) : file_(std::move(file)) {
+  for (std::atomic<const char*>& name : noted_names)
+    if (const char* none = nullptr; name.compare_exchange_strong(none, file_.c_str())) {
+      noted_ = &name;
+      return;
+    }
+}
 
 UnfinishedFile::~UnfinishedFile() {
   ::unlink(file_.c_str());
-  forget(slot_);
+  if (noted_ == nullptr) return;
+  for (const char* own = file_.c_str(); !noted_->compare_exchange_weak(own, nullptr); own = file_.c_str())
+    std::this_thread::yield();
 }
 
 void remove_unfinished_files() noexcept {
-  for (Slot& slot : slots) {
-    Use expected = Use::named;
-    if (slot.use.compare_exchange_strong(expected, Use::taken)) ::unlink(slot.name.data());
-  }
+  for (std::atomic<const char*>& name : noted_names)
+    if (const char* file = name.exchange(&taken); file != nullptr && file != &taken) ::unlink(file);
 }
 
 }  // namespace drumlin

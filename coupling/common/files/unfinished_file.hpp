@@ -1,5 +1,6 @@
 #pragma once
 // A file that is not whole yet and must not be left behind, however this process ends, short of kill -9.
+#include <atomic>
 #include <filesystem>
 
 namespace drumlin {
@@ -17,7 +18,8 @@ class UnfinishedFile {
 
  private:
   std::filesystem::path file_;
-  int slot_;  // where a signal handler finds the name; -1: too many at once
+  std::atomic<const char*>* noted_ =
+      nullptr;  // where a signal handler finds the name; too many at once: nowhere
 };
 
 /// Removes the files of all UnfinishedFile of this process. For signal handlers: it allocates nothing and

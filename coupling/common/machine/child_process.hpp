@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "coupling/common/files/own_folder.hpp"
+
 namespace drumlin {
 
 /// Where the output of a started program goes.
@@ -23,12 +25,11 @@ struct ProcessRequest {
   std::vector<std::string> environment = {};  ///< "NAME=value", in place of this process's own value of NAME
   int input = -1;                             ///< what it reads as standard input; -1: that of this process
   ProcessOutput output = ProcessOutput::inherited;
-  std::function<void(const std::string&)> line =
-      {};                                   ///< takes each line of captured output; empty: it is dropped
+  std::function<void(const std::string&)> line = [](const std::string&) {};  ///< takes captured output
   std::optional<double> time_limit_s = {};  ///< wall time after which the program is told to end
-  /// SIGINT, SIGTERM and SIGHUP go to the program too, and this process, after its own handler, which must
-  /// return, waits for its end.
-  bool pass_signals_on = false;
+  /// Tells the signal that this process has caught, 0: none. The program gets it too, and this process waits
+  /// for its end.
+  int (*caught)() = nullptr;
   /// What the program gets when this process ends before it, by kill -9 for example: nobody would wait for it
   /// any more. SIGTERM for one that has processes of its own to end (mpirun).
   int end_signal = SIGKILL;
@@ -45,17 +46,20 @@ struct ProcessEnd {
   int shell_code() const { return signal == 0 ? exit_code : 128 + signal; }
 };
 
-/// Starts the program and waits until it ends. Throws IoError if it cannot be started. At most one call of a
-/// process at a time passes signals on. To be called from a thread that lives on: the program ends with it.
+/// Starts the program and waits until it ends. Throws IoError if it cannot be started. To be called from a
+/// thread that lives on: the program ends with it.
 ProcessEnd run_process(const ProcessRequest& request);
+
+/// A pipe, which no started program inherits.
+struct Pipe {
+  Descriptor out, in;
+};
+/// Throws IoError.
+Pipe open_pipe();
 
 /// Throws IoError where the system could not load a program of ours (exit code 127, after words of the
 /// loader).
 void require_loaded(const ProcessEnd& end, const std::string& name);
-
-/// Does `work` in a copy of this process, whose memory can then be told from this one's, and waits for it.
-/// Throws IoError if there can be no copy.
-ProcessEnd run_in_copy(const std::function<void()>& work);
 
 /// The program of this name in the folder of the running executable. Throws IoError if it is missing.
 std::filesystem::path program_beside(const std::string& name);

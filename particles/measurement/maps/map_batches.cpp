@@ -46,7 +46,7 @@ void MapBatches::read(std::size_t tile, std::vector<std::vector<MapNode>>& batch
 }
 
 std::size_t MapBatches::bytes_in_memory() const {
-  std::size_t bytes = file_->bytes_in_memory();
+  std::size_t bytes = 0;
   for (const auto& places : places_) bytes += places.capacity() * sizeof(std::uint64_t);
   return bytes;
 }

@@ -25,7 +25,6 @@ class MapBatches {
   std::size_t rows_reached() const { return rows_reached_; }
   /// The nodes of one tile, batch by batch; none where a batch has nothing but zeros.
   void read(std::size_t tile, std::vector<std::vector<MapNode>>& batches) const;
-  /// Of places and of what the file holds in memory.
   std::size_t bytes_in_memory() const;
 
  private:
