@@ -88,17 +88,12 @@ struct Straining {
   Point direction;  ///< unit vector
   double distance = 0, rate = 0;
 };
-/// Part of a force: amplitude sin(rate t + phase).
-struct Swell {
-  double amplitude = 0, rate = 0, phase = 0;
-};
 /// Moved along `direction` by a force and by contacts; how far and how fast is a DrivenState.
 struct Driven {
   Point direction;  ///< unit vector
   double force = 0, inverse_mass = 0;
   double glide_x = 0, glide_z = 0;  ///< velocity across
   int state = 0;                    ///< its position among the states
-  Swell swell = {};                 ///< added to the force
   /// Shapes: the force is per length of the distance of their middles across the direction; -1: it is whole.
   std::array<int, 2> between = {-1, -1};
 };

@@ -1,7 +1,6 @@
 #include "particles/effects/driven_walls.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace drumlin::particles {
 
@@ -10,42 +9,34 @@ Driven driven_law(const ForceControl& key, const Scales& scales, int state) {
   const double length = std::hypot(key.direction[0], key.direction[1]);
   const double mass = scales.density_kg_m3 * scales.length_m * scales.length_m;
   const double force = mass * scales.length_m / (scales.time_s * scales.time_s);
-  Driven law{{key.direction[0] / length, key.direction[1] / length},
-             key.force_n_m / force,
-             mass / key.mass_kg_m,
-             key.velocity_mm_s[0] * unit,
-             key.velocity_mm_s[1] * unit,
-             state};
-  if (const auto& o = key.oscillation)
-    law.swell = {o->amplitude_n_m / force, 2 * std::numbers::pi * o->frequency_hz * scales.time_s,
-                 o->phase_deg * std::numbers::pi / 180};
-  return law;
+  return {{key.direction[0] / length, key.direction[1] / length},
+          key.force_n_m / force,
+          mass / key.mass_kg_m,
+          key.velocity_mm_s[0] * unit,
+          key.velocity_mm_s[1] * unit,
+          state};
 }
 
-double force_in_step(const Driven& wall, std::span<const Shape> shapes, double time_in_stage,
-                     double time_step) {
-  double force = wall.force;
-  if (wall.swell.amplitude != 0) {
-    // The mean over the step: momentum is exact for any time step.
-    const double from = wall.swell.rate * time_in_stage + wall.swell.phase;
-    const double displacement = wall.swell.rate * time_step;
-    force += wall.swell.amplitude * (std::cos(from) - std::cos(from + displacement)) / displacement;
-  }
-  if (wall.between[0] >= 0) {
-    const Point a = middle_of(shapes[wall.between[0]]), b = middle_of(shapes[wall.between[1]]);
-    force *= std::abs((b.x - a.x) * wall.direction.z - (b.z - a.z) * wall.direction.x);
-  }
-  return force;
+namespace {
+
+/// The force that acts on a driven wall over a step: a pressure times the length between two walls. `shapes`:
+/// at the beginning of the step.
+double force_in_step(const Driven& wall, std::span<const Shape> shapes) {
+  if (wall.between[0] < 0) return wall.force;
+  const Point a = middle_of(shapes[wall.between[0]]), b = middle_of(shapes[wall.between[1]]);
+  return wall.force * std::abs((b.x - a.x) * wall.direction.z - (b.z - a.z) * wall.direction.x);
 }
 
-void add_driven_walls(const Walls& walls, std::span<const DrivenState> states, double time_in_stage,
-                      double time_step, WallStep& step) {
+}  // namespace
+
+void add_driven_walls(const Walls& walls, std::span<const DrivenState> states, double time_step,
+                      WallStep& step) {
   std::vector<std::int32_t> driven_of_wall(walls.names.size(), -1);
   for (std::size_t w = 0; w < walls.names.size(); ++w)
     if (const Driven* driven = driven_motion(walls, w)) {
       driven_of_wall[w] = static_cast<std::int32_t>(step.driven.size());
       step.driven.push_back(*driven);
-      step.driven.back().force = force_in_step(*driven, step.before, time_in_stage, time_step);
+      step.driven.back().force = force_in_step(*driven, step.before);
     }
   if (step.driven.empty()) return;
   for (std::size_t s = 0; s < walls.wall_of_shape.size(); ++s) {

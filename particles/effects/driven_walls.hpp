@@ -3,7 +3,6 @@
 // One body more in a step, with one velocity. Everything that is state of such a wall is its DrivenState.
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 
 #include "coupling/common/scales.hpp"
@@ -15,29 +14,12 @@
 
 namespace drumlin::particles {
 
-/// A part of a force that comes and goes: amplitude sin(2 pi f t + phase), t from the start of the stage.
-struct ForceOscillation {
-  double amplitude_n_m = 0;
-  double frequency_hz = 0;
-  double phase_deg = 0;
-};
-
-template <class Visitor>
-void describe(Visitor& v, ForceOscillation& o) {
-  v.value("amplitude_n_m", o.amplitude_n_m, required("N/m", at_least(-1e12, 1e12), "Amplitude."));
-  v.value("frequency_hz", o.frequency_hz, required("Hz", above(0, 1e6), "Frequency."));
-  v.value(
-      "phase_deg", o.phase_deg,
-      defaulted("deg", at_least(-360, 360), "amplitude sin(2 pi f t + phase), t from the stage's start."));
-}
-
 /// The keys of a motion of kind "force".
 struct ForceControl {
   std::array<double, 2> direction{0, 0};  ///< of the force and of the motion; its length does not matter
   double force_n_m = 0;  ///< per metre of depth: all that acts beside the grains, weight included
   double mass_kg_m = 0;
   std::array<double, 2> velocity_mm_s{0, 0};  ///< at right angles to the direction
-  std::optional<ForceOscillation> oscillation = {};
 };
 
 /// The keys of a wall that is moved along a direction by a force or a pressure, `push`.
@@ -54,7 +36,6 @@ void describe_drive(Visitor& v, Drive& keys, const std::string& name, double& pu
 template <class Visitor>
 void describe(Visitor& v, ForceControl& f) {
   describe_drive(v, f, "force_n_m", f.force_n_m, "N/m");
-  v.optional_table("oscillation", f.oscillation, "Added to force_n_m.");
 }
 
 /// The law: direction, force and mass in the units of the simulation. `state`: its position among the states.
@@ -66,12 +47,8 @@ Driven driven_law(const ForceControl&, const Scales&, int state);
 inline double free_velocity(const Driven& wall, const DrivenState& state, double time_step) {
   return state.velocity + time_step * wall.force * wall.inverse_mass;
 }
-/// The force that acts on a driven wall over a step: its mean over an oscillation, the pressure times the
-/// length between two walls. `shapes`: at the beginning of the step.
-double force_in_step(const Driven&, std::span<const Shape> shapes, double time_in_stage, double time_step);
 /// Adds driven walls to a step, as the force alone moves them.
-void add_driven_walls(const Walls&, std::span<const DrivenState>, double time_in_stage, double time_step,
-                      WallStep&);
+void add_driven_walls(const Walls&, std::span<const DrivenState>, double time_step, WallStep&);
 
 /// The driven wall of a pair, as its position in WallStep::driven; -1: none.
 inline std::int32_t driven_wall_of(const WallStep& walls, const Candidate& pair) {

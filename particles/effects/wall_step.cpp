@@ -37,7 +37,7 @@ WallStep wall_step(const Walls& walls, double time_in_stage, double time_step,
     step.displacement[s].set_displacement(moves[wall]);
     step.displacement[s].surface = time_step * surface_speed(walls.motions[wall]);
   }
-  add_driven_walls(walls, driven, time_in_stage, time_step, step);
+  add_driven_walls(walls, driven, time_step, step);
   return step;
 }
 

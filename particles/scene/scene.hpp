@@ -124,7 +124,6 @@ struct SolverSettings {
   std::optional<double> projection_share = {};  ///< of an overlap that a step takes off; absent: 0.2
   bool stop_when_unconverged = false;  ///< end with exit code 3 at the first step that misses the tolerance
   int capture_unconverged = 0;         ///< so many steps that miss it leave their contact problem as a file
-  std::optional<bool> allow_crushing = {};  ///< true: no end with exit code 3 where discs are crushed
 };
 
 struct Output {

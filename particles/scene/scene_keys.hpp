@@ -214,9 +214,6 @@ void describe(Visitor& v, SolverSettings& s) {
   v.value(
       "capture_unconverged", s.capture_unconverged,
       defaulted("", at_least(0, 1e6), "So many steps that miss a tolerance leave their contact problem."));
-  v.value(
-      "allow_crushing", s.allow_crushing,
-      when_given("", anything(), "No exit 3 where loaded contacts overlap by more than 0.2 d on average."));
 }
 
 template <class Visitor>

@@ -24,7 +24,7 @@ std::string missed_tolerance(const SolveReport& solve, const SolverSettings& sol
 std::string crushed(double overlap) {
   return fmt::format(
       "loaded contacts overlap by {:.2g} d in the mean, more than {:g} d: discs are crushed, forces and "
-      "places mean nothing. Shorten time_step_s, lower the load, or allow it by solver.allow_crushing",
+      "places mean nothing. Shorten time_step_s or lower the load",
       overlap, crushing_overlap);
 }
 
@@ -39,8 +39,7 @@ std::optional<StepFault> fault_of(const StepReport& report, const SolverSettings
   const bool fatal = solver.stop_when_unconverged || report.solve.status == Status::not_finite;
   if (!is_converged(report) && fatal)
     return StepFault{"not converged", missed_tolerance(report.solve, solver)};
-  if (report.overlap.mean > crushing_overlap && !solver.allow_crushing.value_or(false))
-    return StepFault{"crushed", crushed(report.overlap.mean)};
+  if (report.overlap.mean > crushing_overlap) return StepFault{"crushed", crushed(report.overlap.mean)};
   return std::nullopt;
 }
 

@@ -63,18 +63,6 @@ TEST(Pressure, OfAPeriodicSceneActsOnThePeriod) {
   EXPECT_NEAR(length_across(walls_of(scene, scales_of(scene)), 1, {0, -1}), 20, 1e-12);
 }
 
-TEST(OscillatingForce, GivesAFreeWallItsIntegral) {
-  const double M = 2, A = 3, omega = 5, T = 1.3;
-  Scene scene = scene_of({{0, 0.5}});
-  scene.walls = {{"piston", SegmentShape{{-2, 10}, {2, 10}}}};
-  add_stage(scene, T, 0.02);
-  ForceControl force{{0, -1}, 0, M * mass_unit};
-  force.oscillation = ForceOscillation{A * force_unit, omega / (2 * std::numbers::pi * time_s), 0};
-  scene.stages[0].motions = {{"piston", force}};
-  EndedSimulation simulation(scene);
-  EXPECT_NEAR(simulation.state().driven[0].velocity, A / (M * omega) * (1 - std::cos(omega * T)), 1e-9);
-}
-
 TEST(StrainRate, KeepsVelocityOverDistanceAlsoInTheNextStage) {
   const double rate = -0.3;
   Scene scene = scene_of({{50, 50}});

@@ -5,15 +5,11 @@ namespace drumlin::testing {
 using namespace particles;
 namespace {
 
-const std::string force = "kind = \"force\"";
 const std::string pressure = "kind = \"pressure\"";
 const std::string strain_rate = "kind = \"strain_rate\"";
 const std::string polyline = "shape = \"polyline\"";
 const std::string arc = "shape = \"arc\"";
 
-const std::string pushed =
-    "stages.0.motions=[{wall=\"left\", kind=\"force\", direction=[1, 1], force_n_m=1, mass_kg_m=0.1}]";
-const std::string swelling = "stages.0.motions.0.oscillation={amplitude_n_m=1, frequency_hz=20}";
 const std::string pressed =
     "stages.0.motions=[{wall=\"left\", kind=\"pressure\", direction=[1, 1], pressure_n_m2=200, "
     "mass_kg_m=0.1, between=[\"left\", \"right\"]}]";
@@ -23,9 +19,6 @@ const std::string strained =
 const std::string bent = "walls.0={name=\"floor\", shape=\"polyline\", x_mm=[-20, 0, 20], z_mm=[0, -1, 0]}";
 const std::string domed =
     "walls.0={name=\"floor\", shape=\"arc\", center_mm=[0, -60], radius_mm=60, from_deg=60, to_deg=120}";
-// A lid that comes down until there is less room than grains need.
-const std::string crushing = "walls.1={name=\"left\", shape=\"segment\", from_mm=[-20, 13], to_mm=[20, 13]}";
-const std::string coming_down = "stages.0.motions.0.velocity_mm_s=[0, -120]";
 const std::string tilted = "stages.0.gravity={direction_deg=-80, acceleration_m_s2=5}";
 const std::string smooth = "stages.1.friction={grain_grain=0, grain_wall=0}";
 const std::string lively = "stages.0.restitution={grain_grain=0.9, grain_wall=0.9}";
@@ -46,25 +39,6 @@ std::vector<Case> cases_of_servo_walls() {
   const std::string* F = &floor_scene();
   const std::string motion = "stages[].motions[].", first = "stages.0.motions.0.";
   return {
-      {motion + "oscillation", force, F, {pushed}, swelling, positions_mm},
-      {motion + "oscillation.amplitude_n_m",
-       "",
-       F,
-       {pushed, swelling},
-       first + "oscillation.amplitude_n_m=2",
-       positions_mm},
-      {motion + "oscillation.frequency_hz",
-       "",
-       F,
-       {pushed, swelling},
-       first + "oscillation.frequency_hz=30",
-       positions_mm},
-      {motion + "oscillation.phase_deg",
-       "",
-       F,
-       {pushed, swelling},
-       first + "oscillation.phase_deg=90",
-       positions_mm},
       {motion + "direction", pressure, F, {pressed}, first + "direction=[1, 0.5]", positions_mm},
       {motion + "pressure_n_m2", pressure, F, {pressed}, first + "pressure_n_m2=400", positions_mm},
       {motion + "mass_kg_m", pressure, F, {pressed}, first + "mass_kg_m=0.2", positions_mm},
@@ -82,7 +56,6 @@ std::vector<Case> cases_of_servo_walls() {
       {"walls[].closed", polyline, F, {bent}, "walls.0.closed=true", positions_mm},
       {"output.walls_every_s", "", D, {}, "output.walls_every_s=0.03", wall_lines},
       {"grains.thermal_speed_mm_s", "", D, {}, "grains.thermal_speed_mm_s=100", positions_mm},
-      {"solver.allow_crushing", "", F, {crushing, coming_down}, "solver.allow_crushing=true", exit_code},
   };
 }
 
