@@ -134,7 +134,7 @@ class CommandLine {
   void refuse_unknown_command(const std::string& word) const {
     if (word.starts_with("-")) return;
     std::string nearest;
-    for (const CLI::App* command : app_.get_subcommands([](const CLI::App*) { return true; })) {
+    for (const CLI::App* command : commands_of(app_)) {
       if (command->get_name() == word) return;
       if (nearest.empty() || edits(word, command->get_name()) < edits(word, nearest))
         nearest = command->get_name();

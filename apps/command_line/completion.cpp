@@ -8,11 +8,11 @@
 
 namespace drumlin::apps {
 
-namespace {
-
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App*) { return true; });
 }
+
+namespace {
 
 /// Names of the long options, and of the subcommands before them.
 std::string words_of(const CLI::App& app) {

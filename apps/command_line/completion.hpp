@@ -1,12 +1,16 @@
 #pragma once
 // Completion of commands and options in a shell.
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
 }
 
 namespace drumlin::apps {
+
+/// The subcommands of a program or a command.
+std::vector<const CLI::App*> commands_of(const CLI::App& app);
 
 /// A script for bash that completes the commands of a program, their subcommands and options; file names
 /// elsewhere.

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <limits>
+
+#include "coupling/documents/number_text.hpp"
 
 namespace drumlin {
 
@@ -67,11 +68,8 @@ std::vector<std::string_view> csv_fields(std::string_view line) {
 }
 
 std::optional<double> finite_number(std::string_view field) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
+  const auto value = parsed_number<double>(field);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::optional<double> csv_value(std::string_view field) {

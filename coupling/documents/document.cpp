@@ -27,9 +27,9 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "coupling/common/files/input_file.hpp"
+#include "coupling/documents/number_text.hpp"
 #include "coupling/documents/toml_depth.hpp"
 
 namespace drumlin {
@@ -169,12 +169,11 @@ Node override_value(const std::string& text, const std::string& path) {
 /// The entry `step` of `node`, made anew in a table that has none.
 Node& entry_of(Node& node, const std::string& step, const std::string& path) {
   if (auto* array = std::get_if<Node::Array>(&node.value)) {
-    std::size_t index = 0;
-    const auto [end, error] = std::from_chars(step.data(), step.data() + step.size(), index);
-    if (error != std::errc() || end != step.data() + step.size() || index >= array->size())
+    const auto index = parsed_number<std::size_t>(step);
+    if (!index || *index >= array->size())
       throw fault(override_source, 0, 0, path, fmt::format("\"{}\" is no entry of this array", step),
                   array->empty() ? "none, it is empty" : fmt::format("0 to {}", array->size() - 1));
-    return (*array)[index];
+    return (*array)[*index];
   }
   auto* table = std::get_if<Node::Table>(&node.value);
   if (!table)

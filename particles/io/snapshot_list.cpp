@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/documents/number_text.hpp"
 
 namespace drumlin::particles {
 
@@ -31,12 +32,9 @@ std::optional<std::pair<int, int>> range_of(std::string_view text) {
 }  // namespace
 
 int snapshot_number(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  int number = 0;
-  const auto [end, fault] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
-  if (fault != std::errc() || end != stem.data() + stem.size())
-    throw InputError(file.string() + ": is not named as a snapshot (NNNNNN.h5)");
-  return number;
+  const auto number = parsed_number<int>(file.stem().string());
+  if (!number) throw InputError(file.string() + ": is not named as a snapshot (NNNNNN.h5)");
+  return *number;
 }
 
 std::vector<fs::path> listed_snapshots(const fs::path& folder, const std::vector<fs::path>& snapshots,

@@ -2,7 +2,7 @@
 
 #include <malloc.h>
 
-#include "coupling/common/machine/machine_load.hpp"
+#include "coupling/common/machine/own_costs.hpp"
 #include "particles/stepping/simulation.hpp"
 
 namespace drumlin::particles {
@@ -47,7 +47,7 @@ double slope_of(const EffectPrice& price, const Scene& scene) {
 EffectPrice price_of(const Scene& scene, double seconds, int threads,
                      const std::function<void()>& after_step) {
   EffectPrice price;
-  const double bytes_before = heap_bytes(), start = process_seconds();
+  const double bytes_before = heap_bytes(), start = own_cpu_seconds();
   Simulation simulation(scene, threads);
   const Scales& scales = simulation.scales();
   const double end = seconds / scales.time_s;
@@ -67,7 +67,7 @@ EffectPrice price_of(const Scene& scene, double seconds, int threads,
     price.kinetic_energy_J_kg += now.energy, price.center_x_mm += now.x, price.center_z_mm += now.z;
     price.overlap_d += report.overlap.mean;
   }
-  price.cpu_seconds = process_seconds() - start;
+  price.cpu_seconds = own_cpu_seconds() - start;
   price.bytes = heap_bytes() - bytes_before;
   price.unknowns_per_contact = simulation.stepper().unknowns_per_contact();
   price.velocities_per_body = simulation.stepper().velocities_per_body();

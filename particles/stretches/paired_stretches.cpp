@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/machine/machine_load.hpp"
+#include "coupling/common/machine/own_costs.hpp"
 #include "coupling/common/no_value.hpp"
 #include "coupling/statistics/quantiles.hpp"
 #include "coupling/statistics/resampling.hpp"
@@ -74,7 +74,7 @@ double mean_of(const std::array<double, stretch_blocks>& values) {
 StretchMeans stretch_means(const Scene& scene, const SimulationState& end, double seconds, double step_s,
                            double tolerance, int threads, const std::function<void()>& after_step) {
   StretchMeans result;
-  const double begun = process_seconds();
+  const double begun = own_cpu_seconds();
   Simulation simulation(prolonged(scene, seconds, step_s, tolerance), end, threads);
   const TimePlan::Part& part = simulation.plan().stages.back();
   result.steps = part.steps;
@@ -104,7 +104,7 @@ StretchMeans stretch_means(const Scene& scene, const SimulationState& end, doubl
         means_of(sums, static_cast<double>(steps), rms_displacement(before, simulation.state().bodies));
     for (std::size_t q = 0; q < stretch_quantities.size(); ++q) result.blocks[q][block] = means[q];
   }
-  result.cpu_seconds = process_seconds() - begun;
+  result.cpu_seconds = own_cpu_seconds() - begun;
   return result;
 }
 

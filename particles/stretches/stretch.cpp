@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/machine/machine_load.hpp"
+#include "coupling/common/machine/own_costs.hpp"
 
 namespace drumlin::particles {
 
@@ -48,7 +48,7 @@ std::vector<Mark> marks_along(const SweepStart& start, const StretchSettings& se
   std::vector<Mark> marks;
   Mark now;
   double overlap = 0;
-  const double begun = process_seconds();
+  const double begun = own_cpu_seconds();
   for (std::int64_t step = 1; step <= steps; ++step) {
     const StepReport report = simulation.step();
     if (report.lost)
@@ -62,7 +62,7 @@ std::vector<Mark> marks_along(const SweepStart& start, const StretchSettings& se
     overlap += report.overlap.mean;
     const std::int64_t quarters = 4 * step;
     if (quarters != steps && quarters != 2 * steps && quarters != 4 * steps) continue;
-    now.cpu_seconds = process_seconds() - begun;
+    now.cpu_seconds = own_cpu_seconds() - begun;
     now.overlap_d = overlap / static_cast<double>(step);
     now.bodies = simulation.state().bodies;
     marks.push_back(now);

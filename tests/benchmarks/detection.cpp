@@ -13,7 +13,7 @@
 
 #include "apps/json/json_file.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/machine/machine_load.hpp"
+#include "coupling/common/machine/own_costs.hpp"
 #include "particles/detection/contact_list.hpp"
 #include "tests/particles/many_grains.hpp"
 
@@ -51,9 +51,9 @@ Price price(const Grains& grains) {
   double spent = 0;
   for (int k = 0; k <= repetitions || spent < shortest; ++k) {
     detection.forget();  // else a list of near pairs would be used again
-    const double before = process_seconds();
+    const double before = own_cpu_seconds();
     const auto& found = detection.find(grains.bodies, grains.v_x, grains.v_z, input);
-    const double seconds = process_seconds() - before;
+    const double seconds = own_cpu_seconds() - before;
     if (k == 0) continue;  // memory is new
     spent += seconds;
     const double ns = 1e9 * seconds / count;

@@ -12,7 +12,7 @@
 #include "apps/json/json_file.hpp"
 #include "apps/output/program.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/machine/machine_load.hpp"
+#include "coupling/common/machine/own_costs.hpp"
 #include "coupling/documents/number_text.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/scene_file.hpp"
@@ -131,9 +131,9 @@ struct Runner {
 void advance(Runner& runner, std::int64_t steps, bool measured) {
   double sum = 0;
   for (std::int64_t k = 1; k <= steps; ++k) {
-    const double before = process_seconds();
+    const double before = own_cpu_seconds();
     runner.engine->step();
-    const double ms = 1e3 * (process_seconds() - before);
+    const double ms = 1e3 * (own_cpu_seconds() - before);
     if (!measured) continue;
     sum += ms, runner.ms_of_steps.push_back(ms);
     if (k % look_every == 0) runner.engine->look(runner.looks);

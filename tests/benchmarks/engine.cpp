@@ -16,7 +16,7 @@
 
 #include "apps/json/json_file.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/machine/machine_load.hpp"
+#include "coupling/common/machine/own_costs.hpp"
 #include "particles/lab/any_solver.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "tests/benchmarks/flow_steps.hpp"

@@ -19,7 +19,7 @@
 
 #include "apps/json/json_file.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/machine/machine_load.hpp"
+#include "coupling/common/machine/own_costs.hpp"
 #include "coupling/documents/number_text.hpp"
 #include "particles/contact/residual.hpp"
 #include "particles/lab/contact_problem_file.hpp"
@@ -90,10 +90,10 @@ Solved solve(BlockProblem& problem, int iterations, std::optional<double> tolera
          !(tolerance && solved.residual.rms <= *tolerance && solved.iterations)) {
     const int part =
         tolerance ? std::min(iterations - solved.iterations, 1 + solved.iterations / 20) : iterations;
-    const double before = process_seconds();
+    const double before = own_cpu_seconds();
     SiconosMatrix W(problem);
     sweep_with_siconos(W, problem, part, impulses);
-    solved.processor_seconds += process_seconds() - before;
+    solved.processor_seconds += own_cpu_seconds() - before;
     solved.iterations += part;
     solved.residual = particles::residual_of(problem, std::span<const double>(impulses));
   }

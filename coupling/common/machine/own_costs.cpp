@@ -2,25 +2,27 @@
 
 #include <sys/resource.h>
 
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+
 namespace drumlin {
-namespace {
-
-rusage own_usage() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage;
-}
-
-}  // namespace
 
 double own_cpu_seconds() {
-  const rusage usage = own_usage();
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  std::timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-double own_peak_memory_mb() { return static_cast<double>(own_usage().ru_maxrss) / 1024; }
+double own_peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+double load_average() {
+  double load[1] = {NAN};
+  return getloadavg(load, 1) == 1 ? load[0] : NAN;
+}
 
 }  // namespace drumlin
