@@ -39,16 +39,12 @@ Json content_of(const ComparedRuns& runs, const coupling::Comparison& comparison
 
 /// The scripts read comparison.json and the overlays.
 std::vector<FigureScript> figures_of(const ComparedRuns& runs, const fs::path& output, const fs::path& json) {
-  std::vector<std::string> words{"--comparison", json.string(), "--output", output.string()};
-  if (!runs.first.snapshot.empty()) {
-    words.insert(words.end(), {"--snapshot", runs.first.snapshot.string()});
-    if (!runs.second.maps_file.empty()) words.insert(words.end(), {"--maps", runs.second.maps_file.string()});
-  }
+  std::vector<std::string> words{json.string(), output.string()};
+  if (!runs.first.snapshot.empty() && !runs.second.maps_file.empty())
+    words.insert(words.end(), {runs.first.snapshot.string(), runs.second.maps_file.string()});
   std::vector<FigureScript> figures{{"compare_figures.py", words}};
   if (runs.first.moving.size() > 1 && !runs.second.maps_file.empty()) {
-    figures.push_back({"side_by_side.py",
-                       {"--comparison", json.string(), "--maps", runs.second.maps_file.string(), "--output",
-                        output.string(), "--snapshots"}});
+    figures.push_back({"side_by_side.py", {json.string(), runs.second.maps_file.string(), output.string()}});
     for (const fs::path& file : runs.first.moving) figures.back().arguments.push_back(file.string());
   }
   // They are of full drums, and a reduced run shows no more than that the chain works.

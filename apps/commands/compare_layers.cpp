@@ -57,8 +57,8 @@ ComparisonReport layer_report(const ComparedRuns& runs, const CompareOptions& op
     write_profiles(folder / "overlay.csv", overlay);
   };
   report.figures = [snapshot = runs.first.snapshot](const fs::path& folder, const fs::path& json) {
-    std::vector<std::string> words{"--comparison", json.string(), "--output", folder.string()};
-    if (!snapshot.empty()) words.insert(words.end(), {"--snapshot", snapshot.string()});
+    std::vector<std::string> words{json.string(), folder.string()};
+    if (!snapshot.empty()) words.push_back(snapshot.string());
     return std::vector<FigureScript>{{"layer_comparison_figures.py", words}};
   };
   return report;

@@ -120,7 +120,7 @@ int carried_out(StudyRequest request) {
       study_by_script({folder.string(), paper_data_folder().string(), given_file.string()});
   fs::remove(given_file);
   auto& words = request.figures.arguments;
-  words.insert(words.begin(), {"--study", file.string(), "--output", folder.string()});
+  words.insert(words.begin(), folder.string());
   const auto failures = draw_pending_figures(folder, {request.figures}, ResultPage{request.page, file});
   output.publish();
   print_out(said);
@@ -133,7 +133,7 @@ int carried_out(StudyRequest request) {
 }  // namespace
 
 int study(const StudyOptions& options) {
-  FigureScript figures{"study_figures.py", {"--paper", paper_data_folder().string()}};
+  FigureScript figures{"study_figures.py", {paper_data_folder().string()}};
   for (const fs::path& run : options.runs) figures.arguments.push_back(run.string());
   return carried_out({options.runs, options.output, options.existing, false, {}, figures, "study"});
 }

@@ -368,8 +368,7 @@ class Prices(Flows):
             self.say_row(row)
             rows.append(self.with_work(row, flow, point))
         names = {"against": [os.path.basename(run) for run in options["against"]]} if options["against"] else {}
-        drawings = {"flow_price_figures.py": "prices.png"} | ({"flow_effect_figures.py": "effects.png"} if options["against"] else {})
-        self.ask("finish", drawings=drawings, content={"format": "drumlin-flow-effect-prices-1"} | self.head(base["settings"]) | names | {
+        self.ask("finish", drawings={"price_figures.py": ""}, content={"format": "drumlin-flow-effect-prices-1"} | self.head(base["settings"]) | names | {
             "effects": rows})
 
     @staticmethod

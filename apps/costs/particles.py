@@ -218,6 +218,6 @@ def price_effects(ask, options, facts):
         rows.append(row)
     if options["output"]:
         command = f"drumlin cost --effects {os.path.basename(options['scene'])} --seconds {options['seconds']:g} --threads {options['threads']}"
-        ask("finish", drawings={"effect_price_figures.py": "prices.png"}, content={
+        ask("finish", drawings={"price_figures.py": ""}, content={
             "format": "drumlin-effect-prices-1", "title": facts["title"], "reduced": facts["reduced"], "command": command,
             "simulated_seconds": options["seconds"], "threads": options["threads"], "variants": rows})

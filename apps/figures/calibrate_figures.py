@@ -1,24 +1,19 @@
 """Figure of `drumlin calibrate`: the points of all runs over I, the law with its 99 % band, what is left, and the axes; below them the memory of
 the axes, where it was asked for.
 
+usage: calibrate_figures.py RECORD_JSON PICTURE
+
 The law is drawn and subtracted as the record holds it: the command evaluates it, with the function that the flow uses."""
 
-import argparse
 import itertools
 import math
+import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
 
 import script
 import style
-
-
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("record", help="the .json of the calibration")
-    parser.add_argument("--output", required=True, help="the figure")
-    return parser.parse_args()
 
 
 def colors_of(record):
@@ -166,8 +161,7 @@ def over_inertial_number(axes, record):
 
 
 def main():
-    options = arguments()
-    record = script.content_of(options.record)
+    record = script.content_of(sys.argv[1])
     style.use_style()
     with_axes = record["turn"] is not None and "axis_angle_deg" in record["points"][0]
     further = [(draw, record[key]) for draw, key in ((draw_memory, "memory"), (draw_nonlocal, "nonlocal")) if key in record]
@@ -188,7 +182,7 @@ def main():
         draw(axes, record)
         axes.set_title(title)
         axes.legend(loc="lower right", fontsize=9)
-    style.save(figure, options.output, record["reduced"])
+    style.save(figure, sys.argv[2], record["reduced"])
 
 
 if __name__ == "__main__":

@@ -1,9 +1,13 @@
-"""Figures of `drumlin compare`, from the overlays that it wrote: both sides at the same places, with their 99 % bands."""
+"""Figures of `drumlin compare`, from the overlays that it wrote: both sides at the same places, with their 99 % bands.
 
-import argparse
+usage: compare_figures.py COMPARISON_JSON FOLDER [SNAPSHOT MAPS]
+FOLDER holds the overlays and takes the figures; SNAPSHOT of the first side and maps.h5 of the second are drawn beside one another.
+"""
+
 import functools
 import math
 import pathlib
+import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -17,15 +21,6 @@ LABELS = dict(style.LABELS, **{
     "axis_angle_deg": "axis angle  [deg]"})
 
 DEEPEST = -60  # d, of the slices
-
-
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--comparison", required=True, help="comparison.json, or what will become it")
-    parser.add_argument("--output", required=True, type=pathlib.Path, help="folder of the overlays, and for the figures")
-    parser.add_argument("--snapshot", help="snapshot of the first side to draw")
-    parser.add_argument("--maps", help="maps.h5 of the second side, drawn beside the snapshot")
-    return parser.parse_args()
 
 
 def names_of(comparison):
@@ -59,11 +54,11 @@ def curve(axes, columns, name, side, color, label, logarithmic):
 
 def limit_to_the_packing(axes, name, columns):
     """The few grains above the surface, and their wide bands, would set the scale: it is taken from z < 0 instead."""
-    values = [value for side in ("particles", "continuum") for z, value in zip(columns["z"], columns.get(f"{name}_{side}", []))
-              if z < 0 and math.isfinite(value)]
-    if values:
-        margin = 0.1 * (max(values) - min(values)) or 1
-        axes.set_ylim(min(values) - margin, max(values) + margin)
+    sides = [columns[f"{name}_{side}"] for side in ("particles", "continuum") if f"{name}_{side}" in columns]
+    values = np.concatenate([values[(columns["z"] < 0) & np.isfinite(values)] for values in sides])
+    if values.size:
+        margin = 0.1 * np.ptp(values) or 1
+        axes.set_ylim(values.min() - margin, values.max() + margin)
 
 
 def draw(axes, columns, name, names, logarithmic=False):
@@ -141,11 +136,10 @@ def slices(comparison, folder):
 
 
 def main():
-    options = arguments()
+    comparison, folder, drums = script.content_of(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3:]
     style.use_style()
-    comparison = script.content_of(options.comparison)
     reduced, names = comparison["reduced"], names_of(comparison)
-    _, columns = style.read_profiles(options.output / "overlay.csv")
+    _, columns = style.read_profiles(folder / "overlay.csv")
     sheets = {
         "velocity": ([("v_x", False), ("v_x", True), ("v_z", False)], (13, 4.2)),
         "shear_rate": ([("shear_rate", False), ("shear_rate", True)], (11, 4.4)),
@@ -154,13 +148,13 @@ def main():
     }
     drawings = {name: functools.partial(over_depth, panels, columns, comparison, size) for name, (panels, size) in sheets.items()}
     drawings["friction"] = lambda: friction(columns, names)
-    drawings["slices"] = lambda: slices(comparison, options.output)
+    drawings["slices"] = lambda: slices(comparison, folder)
     if comparison["maps"]:
-        maps = compare_maps.overlaid(options.output / "overlay_maps.h5")
+        maps = compare_maps.overlaid(folder / "overlay_maps.h5")
         drawings |= {name: functools.partial(compare_maps.sheet_of, name, maps, names, reduced) for name in compare_maps.SHEETS}
-    if options.snapshot and options.maps:
-        drawings["drums"] = lambda: compare_maps.drums(comparison, options.snapshot, options.maps)
-    script.save_each(drawings, options.output, reduced)
+    if drums:
+        drawings["drums"] = lambda: compare_maps.drums(comparison, *drums)
+    script.save_each(drawings, folder, reduced)
 
 
 if __name__ == "__main__":

@@ -1,12 +1,12 @@
 """Figures of a continuum flow: maps.png (speed, I, pressure, mu over drum or annulus), profiles.png (at the centre of a drum,
 else across the gap, with the closed form), and what speaks for it: well_posedness.png, newton.png, sensitivity.png.
 
-usage: flow_figures.py FLOWRUN [--flow FLOW_JSON]
+usage: flow_figures.py FLOWRUN FLOW_JSON   (the name of flow.json in the folder, or of what will become it)
 """
 
-import argparse
 import math
 import pathlib
+import sys
 
 import matplotlib.colors
 import matplotlib.pyplot as plt
@@ -15,7 +15,7 @@ import result_files
 import script
 import style
 from drum_maps import read_maps
-from flow_trust import draw_newton, draw_sensitivity, draw_well_posedness
+from flow_trust import newton, sensitivity, well_posedness
 
 
 def outline(header, surface):
@@ -54,7 +54,7 @@ def title(flow):
     return f"Continuum flow, {flow['geometry'].replace('_', ' ')}{slope}"
 
 
-def draw_maps(folder, flow, header, grids):
+def maps(flow, header, grids):
     radius = float(header.get("drum_radius", header.get("outer_radius")))
     frame = "in the frame of the drum" if "drum_radius" in header else "in the laboratory frame"
     speed = np.ma.hypot(grids["v_x"], grids["v_z"])
@@ -62,12 +62,12 @@ def draw_maps(folder, flow, header, grids):
     log = matplotlib.colors.LogNorm
     under_tension = " (white: $p < 0$)" if (grids["p"] <= 0).any() else ""
     top = float(speed.max())
-    maps = [(speed, rf"speed {frame}  [$\sqrt{{gd}}$]", log(top * 1e-4, top), "viridis"),
+    panels = [(speed, rf"speed {frame}  [$\sqrt{{gd}}$]", log(top * 1e-4, top), "viridis"),
             (grids["I"], r"inertial number $I$" + under_tension, log(1e-5, 1), "viridis"),
             (grids["p"], r"pressure $p$  [$\rho_0 g d$]",
              matplotlib.colors.Normalize(0, float(grids["p"].max())), "viridis"),
             (grids["mu"], r"friction $\mu = |\tau|/p$" + under_tension, matplotlib.colors.Normalize(0, 0.4), "viridis")]
-    for place, (values, label, norm, cmap) in zip(axes.flat, maps):
+    for place, (values, label, norm, cmap) in zip(axes.flat, panels):
         draw_map(place, grids, values, label, norm, cmap, header, flow.get("surface"))
     # A few arrows on the map of the speed; the directions alone, for the speeds span decades.
     step = max(1, int(radius / 12 / (grids["x"][1] - grids["x"][0])))
@@ -81,10 +81,10 @@ def draw_maps(folder, flow, header, grids):
                             hatches=["////"])
         axes[0, 1].set_title(r"inertial number $I$ (hatched: ill-posed)" + under_tension)
     figure.suptitle(style.title_of(title(flow), flow["reduced"]))
-    style.save(figure, folder / "maps.png", flow["reduced"])
+    return figure
 
 
-def draw_profiles(folder, flow):
+def profiles(folder, flow):
     _, columns = style.read_profiles(folder / "profiles.csv")
     z, H = columns["z"], flow.get("H")
     figure, axes = plt.subplots(1, 4, figsize=(14, 5.2), sharey=True)
@@ -131,10 +131,10 @@ def draw_profiles(folder, flow):
             place.axhline(-H, color="grey", linewidth=0.8, linestyle=":")
     where = ": at the centre of the drum, in its frame" if flow["geometry"] == "drum" else ": across the gap"
     figure.suptitle(style.title_of(title(flow) + where, flow["reduced"]))
-    style.save(figure, folder / "profiles.png", flow["reduced"])
+    return figure
 
 
-def draw_series(folder, flow):
+def series(folder, flow):
     """What a march in time leaves beside its last state."""
     _, _, columns = result_files.read_table(folder / "series.csv")
     shown = [("rotation_rpm", "speed [rpm]"), ("theta_deg", r"slope $\theta$ [deg]"), ("H", "$H$  [$d$]"),
@@ -146,29 +146,21 @@ def draw_series(folder, flow):
     figure.align_ylabels(axes)
     axes[-1].set_xlabel("time [s]")
     figure.suptitle(style.title_of(f"March in time, {len(columns['time_s'])} steps", flow["reduced"]))
-    style.save(figure, folder / "series.png", flow["reduced"])
+    return figure
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--flow", type=pathlib.Path, help="flow.json, if it stands elsewhere than in the folder")
-    arguments = parser.parse_args()
-    flow = script.content_of(arguments.flow or arguments.folder / "flow.json")
+    folder = pathlib.Path(sys.argv[1])
+    flow = script.content_of(folder / sys.argv[2])
     style.use_style()
-    folder = arguments.folder
     header, grids = read_maps(folder / "maps.h5")
-    drawings = {
-        "profiles": lambda: draw_profiles(folder, flow),
-        "well_posedness": lambda: draw_well_posedness(folder, flow, header, grids, draw_map),
-        "newton": lambda: draw_newton(folder, flow),
-        "sensitivity": lambda: draw_sensitivity(folder, flow),
-    }
+    drawings = {"profiles": lambda: profiles(folder, flow), "well_posedness": lambda: well_posedness(flow, header, grids, draw_map),
+                "newton": lambda: newton(folder, flow), "sensitivity": lambda: sensitivity(flow)}
     if flow["geometry"] in ("drum", "annulus"):  # a strip is the same all along: its profiles say it all
-        drawings["maps"] = lambda: draw_maps(folder, flow, header, grids)
+        drawings["maps"] = lambda: maps(flow, header, grids)
     if "time" in flow:
-        drawings["series"] = lambda: draw_series(folder, flow)
-    script.draw_each(drawings)
+        drawings["series"] = lambda: series(folder, flow)
+    script.save_each(drawings, folder, flow["reduced"])
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ SCALARS = {"theta_deg": r"$\theta$", "Q": "$Q$", "H": "$H$", "lambda": r"$\lambd
            "mean_speed": "mean speed"}
 
 
-def draw_well_posedness(folder, flow, header, grids, draw_map):
+def well_posedness(flow, header, grids, draw_map):
     """Margin of the symbol of the linearised equations: negative where waves grow the faster the shorter they are."""
     margin = grids["well_posedness_margin"]
     share = 100 * flow["ill_posed_share"]
@@ -35,7 +35,7 @@ def draw_well_posedness(folder, flow, header, grids, draw_map):
         axes.set_xlabel(f"{label}, negative: ill-posed")
         axes.set_ylabel(style.LABELS["z"])
         axes.set_title(style.title_of(said, flow["reduced"]))
-    style.save(figure, folder / "well_posedness.png", flow["reduced"])
+    return figure
 
 
 def runs_of(rows):
@@ -74,10 +74,10 @@ def draw_convergence(axes, rows, tolerance, over_time=False):
         axes.xaxis.set_major_locator(matplotlib.ticker.MaxNLocator(integer=True))
 
 
-def draw_newton(folder, flow):
+def newton(folder, flow):
     rows = result_files.read_rows(folder / "iterations.csv")
     if not rows:
-        return
+        return None
     figure, axes = plt.subplots(1, 3, figsize=(14.5, 4.8), gridspec_kw={"width_ratios": [3, 3, 2]})
     for place, over_time in zip(axes, (False, True)):
         draw_convergence(place, rows, flow["settings"]["tolerance"], over_time)
@@ -94,7 +94,7 @@ def draw_newton(folder, flow):
     ranks = f", {flow['ranks']} ranks" if flow["ranks"] > 1 else ""
     figure.suptitle(style.title_of(f"{flow['iterations']} iterations to {flow['unknowns']} unknowns in {flow['seconds']:.3g} s{ranks}",
                                    flow["reduced"]))
-    style.save(figure, folder / "newton.png", flow["reduced"])
+    return figure
 
 
 def changes_of(flow, setting):
@@ -110,13 +110,11 @@ def changes_of(flow, setting):
     return result
 
 
-def draw_sensitivity(folder, flow):
+def sensitivity(flow):
     """Bars on a logarithmic scale: what matters next to nothing and what matters most differ by decades."""
-    if not flow["sensitivity"]:
-        return
-    settings = [setting for setting in flow["sensitivity"] if setting["found"]]
+    settings = [setting for setting in flow["sensitivity"] or [] if setting["found"]]
     if not settings:
-        return
+        return None
     names = [name for name in flow["meshes"][-1] if name in SCALARS] + ["profile"]
     figure, axes = plt.subplots(figsize=(9, 1.4 + 0.62 * len(names)))
     height = 0.8 / len(settings)
@@ -134,7 +132,7 @@ def draw_sensitivity(folder, flow):
         axes.barh(0, 0, color=color, label=setting["setting"])
     if not known:
         plt.close(figure)
-        return
+        return None
     axes.set_xscale("log")
     axes.set_xlim(max(1e-5, 0.3 * min(known)), 8 * max(known))
     axes.set_yticks(range(len(names)), [SCALARS.get(name, r"$v_x(z)$, rms") for name in names])
@@ -143,4 +141,4 @@ def draw_sensitivity(folder, flow):
     axes.set_xlabel("change [%] (no bar: less)")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14 * 6 / len(names)), ncols=3)
     axes.set_title(style.title_of("What settings move in the results", flow["reduced"]))
-    style.save(figure, folder / "sensitivity.png", flow["reduced"])
+    return figure

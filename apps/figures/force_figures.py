@@ -3,6 +3,7 @@
 import math
 
 import matplotlib.pyplot as plt
+import numpy as np
 
 import result_files
 import script
@@ -37,8 +38,7 @@ class Forces:
     def curve(self, zone, quantity, least=LEAST_COUNT):
         """Middles of the bins with enough contacts, values, half widths."""
         rows = [row for row in self.rows.get((zone, quantity), []) if row["contacts"] >= least]
-        return ([(row["from"] + row["to"]) / 2 for row in rows], [row["value"] for row in rows],
-                [row["ci99"] for row in rows])
+        return np.array([[(row["from"] + row["to"]) / 2, row["value"], row["ci99"]] for row in rows]).reshape(-1, 3).T
 
 
 def densities(axes, forces, quantity, xlabel):
@@ -56,8 +56,8 @@ def strong_forces(axes, forces):
     for zone in forces.shown_zones():
         beta = forces.scalar(zone, "tail_exponent")
         x, y, _ = forces.curve(zone, "f_n")
-        start = [b for a, b in zip(x, y) if a > 1]
-        if zone != "wall" and math.isfinite(beta) and start:
+        start = y[x > 1]
+        if zone != "wall" and math.isfinite(beta) and start.size:
             axes.plot([1, 6], [start[0], start[0] * math.exp(-5 * beta)], "--", linewidth=1,
                       color=ZONES.get(zone, style.PARTICLES), label=rf"$e^{{-{beta:.2f} f}}$")
     axes.set_xlim(0, 8)
@@ -80,41 +80,27 @@ def friction(axes, forces):
 
 def polar(axes, forces, quantity, harmonics, title):
     """Measured by direction, and the second harmonic on it as a line."""
-    line = [math.radians(angle) for angle in range(361)]
+    line = np.radians(np.arange(361))
     for zone in forces.shown_zones():
         phi, value, _ = forces.curve(zone, quantity)
-        if zone == "wall" or not phi:
+        if zone == "wall" or not phi.size:
             continue
         color = ZONES.get(zone, style.PARTICLES)
-        closed = [math.radians(angle) for angle in phi + [angle + 180 for angle in phi]]
-        axes.plot(closed + closed[:1], [abs(v) for v in value + value + value[:1]], "o:", markersize=3.5, linewidth=0.8,
-                  color=color)
-        axes.plot(line, [abs(v) for v in harmonics(zone, line)], color=color, linewidth=1.2)
+        closed = np.radians(np.concatenate([phi, phi + 180, phi[:1]]))
+        axes.plot(closed, np.abs(np.concatenate([value, value, value[:1]])), "o:", markersize=3.5, linewidth=0.8, color=color)
+        axes.plot(line, np.abs(harmonics(zone, line)), color=color, linewidth=1.2)
     axes.set_title(title)
     axes.set_yticklabels([])
 
 
 def directions(forces, quantity):
-    """The function of direction that a zone's second harmonic stands for."""
-    def contacts(zone, line):
-        a, phi = forces.scalar(zone, "a_c"), math.radians(forces.scalar(zone, "phi_c_deg"))
-        return [(1 + a * math.cos(2 * (angle - phi))) / (2 * math.pi) for angle in line]
+    """The function of direction that a zone's second harmonic stands for; `quantity` is c (contacts), n (normal force) or t (tangential)."""
+    def harmonic(zone, line):
+        a, twice = forces.scalar(zone, "a_" + quantity), 2 * (line - math.radians(forces.scalar(zone, f"phi_{quantity}_deg")))
+        mean = 1 / (2 * math.pi) if quantity == "c" else forces.curve(zone, "f_n_of_direction", 0)[1].mean()
+        return mean * (a * np.sin(twice) if quantity == "t" else 1 + a * np.cos(twice))
 
-    def normal(zone, line):
-        a, phi = forces.scalar(zone, "a_n"), math.radians(forces.scalar(zone, "phi_n_deg"))
-        mean = direction_mean(zone)
-        return [mean * (1 + a * math.cos(2 * (angle - phi))) for angle in line]
-
-    def tangential(zone, line):
-        a, phi = forces.scalar(zone, "a_t"), math.radians(forces.scalar(zone, "phi_t_deg"))
-        mean = direction_mean(zone)
-        return [mean * a * math.sin(2 * (angle - phi)) for angle in line]
-
-    def direction_mean(zone):
-        values = forces.curve(zone, "f_n_of_direction", 0)[1]
-        return sum(values) / len(values)
-
-    return {"contacts": contacts, "normal": normal, "tangential": tangential}[quantity]
+    return harmonic
 
 
 def over_depth(axes, forces):
@@ -140,7 +126,7 @@ def stress_ratio(axes, forces):
 
 
 def main():
-    folder, content = script.measured_folder(__doc__)
+    folder, content = script.measured_folder()
     if content.get("forces") is None:
         return  # no contacts: nothing was measured
     forces = Forces(folder, content)
@@ -150,9 +136,9 @@ def main():
     strong_forces(figure.add_subplot(grid[0, 0:2]), forces)
     weak_forces(figure.add_subplot(grid[0, 2:4]), forces)
     friction(figure.add_subplot(grid[0, 4:6]), forces)
-    for column, quantity, name, title in ((0, "contacts", "contacts_of_direction", r"Contacts $E(\varphi)$"),
-                                          (2, "normal", "f_n_of_direction", r"Normal force $\langle f_n\rangle(\varphi)$"),
-                                          (4, "tangential", "f_t_of_direction", r"Tangential force $|\langle f_t\rangle|(\varphi)$")):
+    for column, quantity, name, title in ((0, "c", "contacts_of_direction", r"Contacts $E(\varphi)$"),
+                                          (2, "n", "f_n_of_direction", r"Normal force $\langle f_n\rangle(\varphi)$"),
+                                          (4, "t", "f_t_of_direction", r"Tangential force $|\langle f_t\rangle|(\varphi)$")):
         polar(figure.add_subplot(grid[1, column:column + 2], projection="polar"), forces, name,
               directions(forces, quantity), title)
     over_depth(figure.add_subplot(grid[2, 0:3]), forces)

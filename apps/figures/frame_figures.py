@@ -4,6 +4,7 @@ import functools
 import math
 
 import matplotlib.pyplot as plt
+import numpy as np
 
 import result_files
 import script
@@ -40,12 +41,11 @@ class Frame:
         _, self.header, columns = result_files.read_table(file, "drumlin-frame-1")
         self.name = self.header["frame"]
         self.coordinate, self.columns = next(iter(columns)), columns
-        dense = LEAST_SHARE * max(columns["nu"], default=0)
-        shown = [i for i, nu in enumerate(columns["nu"]) if nu > dense]
-        kept = range(shown[0], shown[-1] + 1) if shown else range(0)
-        self.at = [columns[self.coordinate][i] for i in kept]
-        loose = set(kept) - set(shown)
-        self.values = {name: [math.nan if i in loose else column[i] for i in kept] for name, column in columns.items()}
+        dense = columns["nu"] > LEAST_SHARE * max(columns["nu"], default=0)
+        shown = np.flatnonzero(dense)
+        kept = slice(shown[0], shown[-1] + 1) if shown.size else slice(0)
+        self.at = columns[self.coordinate][kept]
+        self.values = {name: np.where(dense, column, np.nan)[kept] for name, column in columns.items()}
 
     def place(self):
         """What the frame is, as a title."""
@@ -62,14 +62,14 @@ def curve(axes, frame, name, color, label, logarithmic):
     """A column with its band; over the height values run to the right and the coordinate upwards, as a silo stands."""
     upright, values, half = frame.name == "height", frame.values[name], frame.values.get(name + "_ci99")
     if logarithmic:  # either sense of turning
-        values = [abs(value) if value else math.nan for value in values]
+        values = style.positive(np.abs(values))
     axes.plot(*((values, frame.at) if upright else (frame.at, values)), "o-", color=color, label=label)
     if half is not None:
-        low, high = [a - b for a, b in zip(values, half)], [a + b for a, b in zip(values, half)]
+        low = values - half
         if logarithmic:  # a band that reaches zero ends at the foot of the axis
-            low = [max(a, 1e-2 * b) for a, b in zip(low, values)]
-        (axes.fill_betweenx if upright else axes.fill_between)(frame.at, low, high, color=color, alpha=0.25, linewidth=0)
-    return [value for value in values if math.isfinite(value)]
+            low = np.maximum(low, 1e-2 * values)
+        (axes.fill_betweenx if upright else axes.fill_between)(frame.at, low, values + half, color=color, alpha=0.25, linewidth=0)
+    return values[np.isfinite(values)].tolist()
 
 
 def panel(axes, frame, label, logarithmic, columns):
@@ -85,7 +85,7 @@ def panel(axes, frame, label, logarithmic, columns):
         room = ROOM * (high - low) + 1e-9
         getattr(axes, f"set_{which}lim")(low - room if low < 0 else -0.1 * room, high + room if high > 0 else 0.1 * room)
         (axes.axvline if upright else axes.axhline)(0, color="0.4", linewidth=1)
-    if frame.at:
+    if frame.at.size:
         getattr(axes, f"set_{other}lim")(frame.at[0] - 1, frame.at[-1] + 1)
     getattr(axes, f"set_{which}label")(label)
     if not upright or axes.get_subplotspec().is_first_col():
@@ -110,7 +110,7 @@ def figure_of(file):
 
 
 def main():
-    folder, content = script.measured_folder(__doc__)
+    folder, content = script.measured_folder()
     style.use_style()
 
     script.save_each({entry["frame"]: functools.partial(figure_of, folder / entry["file"]) for entry in content.get("frames", [])}, folder, content["reduced"])

@@ -87,7 +87,7 @@ def draw(fields, number, reduced):
 
 
 def main():
-    folder, content = script.measured_folder(__doc__)
+    folder, content = script.measured_folder()
     last = max((folder / "grains").glob("*.h5"))
     style.use_style()
     plt.rcParams["savefig.dpi"] = 130

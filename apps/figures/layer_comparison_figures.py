@@ -1,7 +1,11 @@
-"""Figures of `drumlin compare` on flows in layers, from the overlay that it wrote: both sides over height, with their 99 % bands."""
+"""Figures of `drumlin compare` on flows in layers, from the overlay that it wrote: both sides over height, with their 99 % bands.
 
-import argparse
+usage: layer_comparison_figures.py COMPARISON_JSON FOLDER [SNAPSHOT]
+FOLDER holds the overlay and takes the figures; a snapshot of the first side is drawn.
+"""
+
 import pathlib
+import sys
 
 import h5py
 import matplotlib.pyplot as plt
@@ -13,14 +17,6 @@ from compare_figures import names_of
 
 COLOURS = {"particles": style.PARTICLES, "continuum": style.CONTINUUM}
 WIDE = 1.2  # of a picture, over the height of its layer
-
-
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--comparison", required=True, help="comparison.json, or what will become it")
-    parser.add_argument("--output", required=True, type=pathlib.Path, help="folder of the overlay, and for the figures")
-    parser.add_argument("--snapshot", help="snapshot of the first side to draw")
-    return parser.parse_args()
 
 
 def between(comparison, z):
@@ -101,16 +97,15 @@ def picture(columns, comparison, snapshot):
 
 
 def main():
-    options = arguments()
+    comparison, folder, snapshot = script.content_of(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3:]
     style.use_style()
-    comparison = script.content_of(options.comparison)
-    _, columns = style.read_profiles(options.output / "overlay.csv")
+    _, columns = style.read_profiles(folder / "overlay.csv")
     drawings = {"profiles": lambda: over_height(columns, comparison, ["v_x", "shear_rate", "sigma_zz", "sigma_xz", "sigma_xx"]),
                 "ratios": lambda: over_height(columns, comparison, ["mu", "I", "k", "nu"]),
                 "law": lambda: law(columns, comparison)}
-    if options.snapshot:
-        drawings["picture"] = lambda: picture(columns, comparison, options.snapshot)
-    script.save_each(drawings, options.output, comparison["reduced"])
+    if snapshot:
+        drawings["picture"] = lambda: picture(columns, comparison, *snapshot)
+    script.save_each(drawings, folder, comparison["reduced"])
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import numpy as np
 import result_files
 import script
 import style
-from style import FIT, LEAST_SHOWN_NU, positive
+from style import FIT, positive
 
 WIDEST_SHARE = 0.6  # of a value, up to which the figure of the sensitivities reaches
 
@@ -41,16 +41,12 @@ class Measured:
 
     def range(self):
         """Range of z that is shown."""
-        return (min(self.z) - 1, max(self.z) + 1) if self.z else (-1, 1)
+        return (self.z.min() - 1, self.z.max() + 1) if self.z.size else (-1, 1)
 
 
 def depth_panel(axes, run, name):
     """Axes over depth with the marks of the paper: dashed at the surface, dotted at the interface."""
-    axes.axvline(0, color="0.4", linestyle="--", linewidth=1)
-    if math.isfinite(run.scalar("H")):
-        axes.axvline(-run.scalar("H"), color="0.4", linestyle=":", linewidth=1)
-    axes.set_xlabel(style.LABELS["z"])
-    axes.set_ylabel(style.LABELS.get(name, name))
+    style.depth_axes(axes, run.scalar("H"), style.LABELS.get(name, name), "--")
     axes.set_xlim(*run.range())
 
 
@@ -113,8 +109,7 @@ def rotation(run):
     figure, axes = plt.subplots()
     depth_panel(axes, run, "omega")
     draw(axes, run, "omega", label=r"mean spin $\omega$, 99 %")
-    half_rate = [rate / 2 for rate in run.columns["shear_rate"]]
-    axes.plot(run.z, half_rate, color=FIT, label=r"$\frac{1}{2}\,dv_x/dz$")
+    axes.plot(run.z, run.columns["shear_rate"] / 2, color=FIT, label=r"$\frac{1}{2}\,dv_x/dz$")
     axes.plot(run.z, run.columns["half_vorticity"], color=style.OTHERS[0], linestyle="--", label=r"$\frac{1}{2}\,(dv_x/dz - dv_z/dx)$")
     axes.set_title(style.title_of("Spin and vorticity", run.reduced))
     axes.legend(loc="upper left")
@@ -129,11 +124,9 @@ def stresses(run):
         draw(axes, run, name, color, style.LABELS[name].split("  ")[0])
     theta, nu = math.radians(float(run.header["theta_deg"])), run.scalar("nu_bulk")
     if math.isfinite(nu):
-        z = [min(run.z, default=0), 0]
-        axes.plot(z, [-at * nu * math.cos(theta) for at in z], color="k", linestyle="--", linewidth=1,
-                  label=r"$-z\,\nu\,\cos\theta$")
-        axes.plot(z, [-at * nu * math.sin(theta) for at in z], color="k", linestyle=":", linewidth=1.4,
-                  label=r"$-z\,\nu\,\sin\theta$")
+        z = np.array([min(run.z, default=0), 0])
+        axes.plot(z, -z * nu * math.cos(theta), color="k", linestyle="--", linewidth=1, label=r"$-z\,\nu\,\cos\theta$")
+        axes.plot(z, -z * nu * math.sin(theta), color="k", linestyle=":", linewidth=1.4, label=r"$-z\,\nu\,\sin\theta$")
     axes.set_ylabel(r"stress  [$\rho_0 g d$]")
     axes.set_title(style.title_of("Stresses, compression positive", run.reduced))
     axes.legend(loc="upper right")
@@ -144,20 +137,13 @@ def over_inertia(axes, run, name):
     """One ratio over I: below the surface, those near the wall open."""
     settings = run.content["settings"]
     wall = float(run.header["wall_z"]) + settings["mu_fit_wall_margin"]
-    groups = {True: ([], [], []), False: ([], [], [])}
-    half = run.half_width(name)
-    for i, z in enumerate(run.z):
-        inertial, value = run.columns["I"][i], run.columns[name][i]
-        if z > 0 or not (inertial > 0 and math.isfinite(value)):
-            continue
-        x, y, error = groups[wall <= z <= -settings["mu_fit_surface_margin"]]
-        x.append(inertial)
-        y.append(value)
-        error.append(0 if half is None or math.isnan(half[i]) else half[i])
-    x, y, error = groups[True]
-    axes.errorbar(x, y, error, fmt="o", color=style.PARTICLES, elinewidth=1, label="measured, 99 %")
-    x, y, _ = groups[False]
-    axes.plot(x, y, "o", color=style.PARTICLES, fillstyle="none", label="at the surface or the wall")
+    inertial, values, half = run.columns["I"], run.columns[name], run.half_width(name)
+    shown = (run.z <= 0) & (inertial > 0) & np.isfinite(values)
+    fitted = (wall <= run.z) & (run.z <= -settings["mu_fit_surface_margin"])
+    error = np.zeros(len(values)) if half is None else np.nan_to_num(half)
+    inner, outer = shown & fitted, shown & ~fitted
+    axes.errorbar(inertial[inner], values[inner], error[inner], fmt="o", color=style.PARTICLES, elinewidth=1, label="measured, 99 %")
+    axes.plot(inertial[outer], values[outer], "o", color=style.PARTICLES, fillstyle="none", label="at the surface or the wall")
     style.log_scale(axes, "x")
     axes.set_xlabel(style.LABELS["I"])
     axes.set_ylabel(style.LABELS[name])
@@ -193,9 +179,7 @@ def fluctuations(run):
         if name not in run.columns:
             axes.set_title("no spin in this scene")
             continue
-        ratios = [value / rate if rate > 0 else math.nan
-                  for value, rate in zip(run.columns[name], run.columns["shear_rate"])]
-        axes.plot(run.z, ratios, "o-", color=style.PARTICLES)
+        axes.plot(run.z, run.columns[name] / positive(run.columns["shear_rate"]), "o-", color=style.PARTICLES)
         style.log_scale(axes, "y")
         value = run.scalar(plateau)
         if math.isfinite(value):
@@ -222,12 +206,12 @@ def expected_gradients(run):
 
 def within_packing(run, name):
     """The packing itself decides the range of an axis, not the last grains in the air or the layers at the wall."""
-    bottom = float(run.header["wall_z"]) + 3
-    values = [value for z, value in zip(run.z, run.columns[name]) if bottom < z < -1 and math.isfinite(value)]
-    values.append(expected_gradients(run).get(name, values[0] if values else 0))
-    values = [value for value in values if math.isfinite(value)] or [0]
-    margin = 0.6 * (max(values) - min(values)) + 1e-9
-    return min(values) - margin, max(values) + margin
+    values = run.columns[name][(float(run.header["wall_z"]) + 3 < run.z) & (run.z < -1)]
+    values = np.append(values, expected_gradients(run).get(name, math.nan))
+    values = values[np.isfinite(values)]
+    low, high = (values.min(), values.max()) if values.size else (0, 0)
+    margin = 0.6 * (high - low) + 1e-9
+    return low - margin, high + margin
 
 
 def gradients(run):
@@ -250,18 +234,10 @@ def slices(run):
     colors = plt.get_cmap("viridis")
     entries = run.content["slices"]
     for i, (entry, place) in enumerate(zip(entries, style.place_labels([entry["position"] for entry in entries]))):
-        columns = style.read_profiles(run.folder / entry["file"])[1]
-        shown = [l for l, nu in enumerate(columns["nu"]) if nu > LEAST_SHOWN_NU]
-        z = [columns["z"][l] for l in shown]
+        columns = style.shown_layers(style.read_profiles(run.folder / entry["file"]))[1]
         color = colors(i / max(1, len(entries) - 1) * 0.9)
-        for axes, name in ((left, "v_x"), (right, "shear_rate")):
-            values = [columns[name][l] for l in shown]
-            half = columns.get(name + "_ci99")
-            if axes is right:
-                axes.plot(z, positive(values), "o-", color=color)
-            else:
-                style.band(axes, z, values, [half[l] for l in shown] if half else None, color,
-                           f"x = {place} d")
+        style.band(left, columns["z"], columns["v_x"], columns.get("v_x_ci99"), color, f"x = {place} d")
+        right.plot(columns["z"], positive(columns["shear_rate"]), "o-", color=color)
     for axes, name in ((left, "v_x"), (right, "shear_rate")):
         axes.set_xlabel(style.LABELS["z"] + ", each from its own surface")
         axes.set_ylabel(style.LABELS[name])
@@ -339,7 +315,7 @@ def figures_of(run):
 
 
 def main():
-    folder, content = script.measured_folder(__doc__)
+    folder, content = script.measured_folder()
     run = Measured(folder, content)
     style.use_style()
 

@@ -123,7 +123,7 @@ def draw_streamlines(axes, maps):
 
 
 def main():
-    folder, content = script.measured_folder(__doc__)
+    folder, content = script.measured_folder()
     maps = Maps(folder / "maps.h5")
     style.use_style()
     if not maps.number("drum_radius") > 0:  # panels may be narrower than their titles

@@ -1,6 +1,5 @@
 """What the scripts of figures share as programs: the JSON file of a command, and drawing one figure after the other."""
 
-import argparse
 import functools
 import json
 import pathlib
@@ -17,13 +16,10 @@ def content_of(path):
     return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
 
 
-def measured_folder(description):
-    """(folder, content of measured.json), from the arguments of a script that draws a measured run."""
-    parser = argparse.ArgumentParser(description=description)
-    parser.add_argument("folder", type=pathlib.Path, help="RUN/measured: holds what was measured and takes the figures")
-    parser.add_argument("--measured", help="the scalars; standard: measured.json in the folder")
-    options = parser.parse_args()
-    return options.folder, content_of(options.measured or options.folder / "measured.json")
+def measured_folder():
+    """(folder, content of measured.json), from the one word of a script that draws a measured run: RUN/measured, which takes the figures."""
+    folder = pathlib.Path(sys.argv[1])
+    return folder, content_of(folder / "measured.json")
 
 
 def save_each(drawings, folder, reduced):

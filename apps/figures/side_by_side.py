@@ -1,16 +1,16 @@
 """What moves at the top of the page of `drumlin compare`: grains beside the mean flow of the other side, and in both the same tracers.
 
-usage: side_by_side.py --comparison FILE --maps FILE --output FOLDER --snapshots FILE...
+usage: side_by_side.py COMPARISON_JSON MAPS FOLDER SNAPSHOT...
 
 Writes FOLDER/motion.json, which the page takes in. The tracers are grains of three upright stripes in the first snapshot; on the other side
 points start from their places and go with the mean flow.
 """
 
-import argparse
 import base64
 import json
 import math
 import pathlib
+import sys
 
 import h5py
 import numpy as np
@@ -169,14 +169,10 @@ def colours(low, high):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    for name in ("--comparison", "--maps", "--output"):
-        parser.add_argument(name, type=pathlib.Path, required=True)
-    parser.add_argument("--snapshots", type=pathlib.Path, nargs="+", required=True)
-    options = parser.parse_args()
-    found = motion(options.snapshots, options.maps, script.content_of(options.comparison))
+    comparison, maps, folder, *snapshots = sys.argv[1:]
+    found = motion(snapshots, maps, script.content_of(comparison))
     if found is not None:
-        whole_file.write_text(options.output / "motion.json", json.dumps(found))
+        whole_file.write_text(pathlib.Path(folder) / "motion.json", json.dumps(found))
 
 
 if __name__ == "__main__":

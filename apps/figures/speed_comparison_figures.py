@@ -1,9 +1,12 @@
-"""Figures of `drumlin compare --study`: paper, particles and continuum over the speed of rotation; errors over their limits."""
+"""Figures of `drumlin compare --study`: paper, particles and continuum over the speed of rotation; errors over their limits.
 
-import argparse
+usage: speed_comparison_figures.py FOLDER   (holds study.json and takes the figures)
+"""
+
 import functools
 import math
 import pathlib
+import sys
 
 import script
 import style
@@ -86,7 +89,7 @@ def draw_slope_laws(axes, study):
             axes.plot(rpm, [math.degrees(math.atan(law["c0"] + law["c1"] * per_rpm * r)) for r in rpm], line, color=color, linewidth=1, zorder=0)
 
 
-def speeds(study, path):
+def speeds(study):
     figure, axes = plt.subplots(1, 3, figsize=(14, 4.9))
     draw_sides(axes[0], study, "theta_deg", "rotation_rpm")
     draw_slope_laws(axes[0], study)
@@ -94,22 +97,22 @@ def speeds(study, path):
     draw_depth_laws(axes[1], study)
     draw_sides(axes[2], study, "lambda", "Q")
     axes[0].legend(fontsize=10)
-    style.save(figure, path, study.reduced)
+    return figure
 
 
-def rates(study, path):
+def rates(study):
     figure, axes = plt.subplots(1, 2, figsize=(10, 4.9))
     draw_sides(axes[0], study, "shear_rate", "Q")
     draw_sides(axes[1], study, "I_th", "Q")
     axes[0].legend(fontsize=10)
-    style.save(figure, path, study.reduced)
+    return figure
 
 
 def name_of(target):
     return target["quantity"] + (f", {target['zone']}" if "zone" in target else "")
 
 
-def errors(study, path):
+def errors(study):
     """One row per target, one mark per speed, over value/limit."""
     compared = [speed for speed in study.speeds if any(target["value"] is not None for target in speed["targets"])]
     names = [name_of(target) for target in compared[0]["targets"] if target["value"] is not None] if compared else []
@@ -132,18 +135,14 @@ def errors(study, path):
     axes.set_xlabel("error / limit")
     axes.set_title("Continuum against particles: met left of the line, missed right of it", fontsize=11)
     axes.legend(loc="center left", bbox_to_anchor=(1, 0.5))
-    style.save(figure, path, study.reduced)
+    return figure
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--study", required=True, help="study.json")
-    parser.add_argument("--output", required=True, type=pathlib.Path, help="folder for the figures")
-    options = parser.parse_args()
+    folder = pathlib.Path(sys.argv[1])
     style.use_style()
-    study = Study(options.study)
-    script.draw_each({draw.__name__: functools.partial(draw, study, options.output / f"{draw.__name__}.png")
-                      for draw in (speeds, rates, errors)})
+    study = Study(folder / "study.json")
+    script.save_each({draw.__name__: functools.partial(draw, study) for draw in (speeds, rates, errors)}, folder, study.reduced)
 
 
 if __name__ == "__main__":

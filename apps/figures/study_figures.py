@@ -1,12 +1,15 @@
 """Figures of `drumlin measure --study`: those of the paper one by one, bands and bars of 99 %, and what each shows.
 
+usage: study_figures.py FOLDER PAPER RUN...
+FOLDER holds study.json and takes the figures; PAPER is data/paper; the runs are in the order of study.json.
+
 figures.json lists them with a caption each: what the paper says, and what was found here.
 """
 
-import argparse
 import functools
 import json
 import pathlib
+import sys
 
 import script
 import study_flow
@@ -37,19 +40,9 @@ FIGURES = [
 ]
 
 
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--study", required=True, help="study.json")
-    parser.add_argument("--paper", required=True, help="folder of the paper's numbers, data/paper")
-    parser.add_argument("--output", required=True, help="folder for the figures")
-    parser.add_argument("runs", nargs="+", help="the runs in the order of study.json")
-    return parser.parse_args()
-
-
 def main():
-    options = arguments()
-    output = pathlib.Path(options.output)
-    study = Study(options.study, options.runs, pathlib.Path(options.paper))
+    output, paper, *runs = map(pathlib.Path, sys.argv[1:])
+    study = Study(output / "study.json", runs, paper)
     style.use_style()
     listed = []
 
@@ -57,9 +50,9 @@ def main():
         drawn = draw(study)
         if drawn is None:
             return
-        figure, title, paper, here = drawn
+        figure, title, said, here = drawn
         style.save(figure, output / f"{name}.png", study.reduced)
-        listed.append({"file": f"{name}.png", "title": title, "paper": paper, "here": here})
+        listed.append({"file": f"{name}.png", "title": title, "paper": said, "here": here})
 
     def save_list():
         content = {"format": "drumlin-study-figures-1", "figures": listed}

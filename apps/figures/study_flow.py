@@ -82,8 +82,7 @@ def velocity(study):
             left.plot([-paper_H[0], 0], [0, paper_rate * paper_H[0]], color=style.PAPER, linestyle="--", linewidth=1.2,
                       label=rf"paper: {paper_rate:g},  {paper_H[0]:g} $d$")
             right.axhline(paper_rate, color=style.PAPER, linestyle="--", linewidth=1.2, label=f"paper: {paper_rate:g}")
-    below = [i for i, z in enumerate(run.z) if z < 0]
-    right.set_ylim(-0.02, limits_of(run, ["shear_rate"], below)[1] * 1.25)
+    right.set_ylim(-0.02, limits_of(run, "shear_rate", run.z < 0)[1] * 1.25)
     left.legend(loc="upper left", bbox_to_anchor=(0.04, 0.36))
     right.legend(loc="upper left", bbox_to_anchor=(0.04, 0.36))
     for axes, name in ((left, "v_x"), (right, "shear_rate")):
@@ -139,10 +138,8 @@ def velocity_over_speed(study):
     figure, (left, middle, right) = plt.subplots(1, 3, figsize=(17, 5))
     for run in study.first_runs():
         draw(left, run, "v_x", color_of(study, run.rpm), label_of(run), marker=marker_of(run.rpm))
-    left.axvline(0, linestyle="-.", color="0.4", linewidth=1)
+    style.depth_axes(left, math.nan, style.LABELS["v_x"], "-.")
     left.set_xlim(lowest_shown(study.first_runs(), -45), 4)
-    left.set_xlabel(style.LABELS["z"])
-    left.set_ylabel(style.LABELS["v_x"])
     left.legend(loc="upper left")
 
     over_flow_rate(middle, study, "lambda", r"$\lambda$  [$d$]", scale=True)
@@ -257,15 +254,13 @@ def spin(study):
     figure, axes = plt.subplots(figsize=(8, 5.2))
     depth_panel(axes, run, style.LABELS["omega"], lowest_shown([run], -50))
     draw(axes, run, "omega", label="mean spin")
-    axes.plot(run.z, [rate / 2 for rate in run.columns["shear_rate"]], color=FIT, label=r"$\frac{1}{2}\,dv_x/dz$")
-    below = [i for i, z in enumerate(run.z) if z < 0]
-    axes.set_ylim(-0.01, 1.35 * limits_of(run, ["omega"], below)[1])
+    axes.plot(run.z, run.columns["shear_rate"] / 2, color=FIT, label=r"$\frac{1}{2}\,dv_x/dz$")
+    axes.set_ylim(-0.01, 1.35 * limits_of(run, "omega", run.z < 0)[1])
     axes.legend(loc="upper left", bbox_to_anchor=(0.03, 0.36))
     inset = axes.inset_axes([0.1, 0.5, 0.4, 0.47])
     for one in study.first_runs():
-        rows = [i for i, z in enumerate(one.z) if one.wall + WALL_MARGIN <= z <= -1]
-        inset.plot([one.columns["shear_rate"][i] for i in rows], [one.columns["omega"][i] for i in rows],
-                   marker_of(one.rpm), color=color_of(study, one.rpm), markersize=3)
+        rows = one.off_ends(1)
+        inset.plot(one.columns["shear_rate"][rows], one.columns["omega"][rows], marker_of(one.rpm), color=color_of(study, one.rpm), markersize=3)
     largest = inset.get_xlim()[1]
     inset.plot([0, largest], [0, largest / 2], color="k", linewidth=1)
     inset.set_xlabel(r"$dv_x/dz$", fontsize=10)

@@ -2,34 +2,27 @@
 
 import math
 
+import numpy as np
+
 import style
 from study_runs import color_of, label_of, marker_of
-
-MARK = {"color": "0.4", "linewidth": 1}
 
 
 def depth_panel(axes, run, label, lowest=None):
     """Axes over depth with the marks of the paper: dash-dotted at the surface, dotted at the interface."""
-    axes.axvline(0, linestyle="-.", **MARK)
-    H = run.scalar("H")
-    if math.isfinite(H):
-        axes.axvline(-H, linestyle=":", **MARK)
-    axes.set_xlabel(style.LABELS["z"])
-    axes.set_ylabel(label)
+    style.depth_axes(axes, run.scalar("H"), label, "-.")
     axes.set_xlim(lowest if lowest is not None else min(run.z) - 1, 4)
 
 
 def lowest_shown(runs, standard):
     """Where an axis over depth begins: where the paper's does, or a d below the deepest layer of a bed that does not reach it."""
-    return max(standard, min((min(run.z) for run in runs if run.z), default=standard) - 1)
+    return max(standard, min((run.z.min() for run in runs if run.z.size), default=standard) - 1)
 
 
-def draw(axes, run, name, color=style.PARTICLES, label=None, rows=None, marker="o"):
+def draw(axes, run, name, color=style.PARTICLES, label=None, rows=slice(None), marker="o"):
     """A column over depth with its band; of all layers unless `rows` names some."""
-    rows = range(len(run.z)) if rows is None else rows
     half = run.half_width(name)
-    style.band(axes, [run.z[i] for i in rows], [run.columns[name][i] for i in rows],
-               [half[i] for i in rows] if half else None, color, label, marker)
+    style.band(axes, run.z[rows], run.columns[name][rows], None if half is None else half[rows], color, label, marker)
 
 
 def draw_logarithmic(axes, run, name, size=3):
@@ -38,38 +31,31 @@ def draw_logarithmic(axes, run, name, size=3):
     axes.set_yscale("log")
 
 
-def limits_of(run, names, rows, margin=0.08, with_bands=False):
-    """Limits of an axis that hold these columns at these rows; with the widest tenth of the bands left outside."""
-    values, ends = [], []
-    for name in names:
-        half = run.half_width(name)
-        for i in rows:
-            value = run.columns[name][i]
-            if math.isfinite(value):
-                values.append(value)
-                if half and math.isfinite(half[i]):
-                    ends += [value - half[i], value + half[i]]
-    if not values:
+def limits_of(run, name, rows, with_bands=False):
+    """Limits of an axis that hold a column at these rows; with the widest tenth of its bands left outside."""
+    values, half = run.columns[name][rows], run.half_width(name)
+    known = values[np.isfinite(values)]
+    if not known.size:
         return -1, 1
-    low, high = min(values), max(values)
-    if with_bands and ends:
-        ends.sort()
-        low, high = min(low, ends[len(ends) // 20]), max(high, ends[-1 - len(ends) // 20])
-    room = margin * (high - low or 1)
+    low, high = known.min(), known.max()
+    ends = np.sort([values - half[rows], values + half[rows]], axis=None) if with_bands and half is not None else known[:0]
+    ends = ends[np.isfinite(ends)]
+    if ends.size:
+        low, high = min(low, ends[ends.size // 20]), max(high, ends[-1 - ends.size // 20])
+    room = 0.08 * (high - low or 1)
     return low - room, high + room
 
 
 def over_inertia(axes, run, values, halves, color, label=None, size=4):
-    """values(i) over I at the layers where the shear rate's sign is known."""
+    """Values over I at the layers where the shear rate's sign is known."""
     rows = run.inside()
-    x = [run.columns["I"][i] for i in rows]
-    y = [values[i] for i in rows]
+    x, y = run.columns["I"][rows], values[rows]
     axes.plot(x, y, marker_of(run.rpm), color=color, markersize=size, label=label, linestyle="none",
               markerfacecolor=color, markeredgewidth=0.6)
     if halves is not None:
-        order = sorted(range(len(x)), key=lambda i: x[i])
-        axes.fill_between([x[i] for i in order], [y[i] - halves[rows[i]] for i in order],
-                          [y[i] + halves[rows[i]] for i in order], color=color, alpha=0.1, linewidth=0)
+        order = np.argsort(x, kind="stable")
+        low, high = (y - halves[rows])[order], (y + halves[rows])[order]
+        axes.fill_between(x[order], low, high, color=color, alpha=0.1, linewidth=0)
     axes.set_xscale("log")
     axes.set_xlabel(style.LABELS["I"])
 

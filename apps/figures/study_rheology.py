@@ -3,6 +3,7 @@
 import math
 
 import matplotlib.pyplot as plt
+import numpy as np
 
 import style
 from study_panels import depth_panel, draw_logarithmic, over_flow_rate, over_inertia, speed_legend
@@ -93,18 +94,9 @@ def fluctuation_names(run):
 
 def ratio_to_shear(run, name):
     """Ratio and its half width, the errors of both taken for independent."""
-    rates, rate_half = run.columns["shear_rate"], run.half_width("shear_rate")
-    values, half = run.columns[name], run.half_width(name)
-    ratios = [v / rate if rate > 0 else math.nan for v, rate in zip(values, rates)]
-    errors = [r * math.hypot(dv / v, dr / rate) if rate > 0 and v > 0 else math.nan
-              for r, v, dv, rate, dr in zip(ratios, values, half, rates, rate_half)]
-    return ratios, errors
-
-
-def ratio_and_shown_error(run, name):
-    """As ratio_to_shear; errors end where a logarithmic axis does."""
-    ratios, errors = ratio_to_shear(run, name)
-    return ratios, [min(error, 0.9 * ratio) for ratio, error in zip(ratios, errors)]
+    rates, values = (style.positive(run.columns[key]) for key in ("shear_rate", name))
+    ratios = values / rates
+    return ratios, ratios * np.hypot(run.half_width(name) / values, run.half_width("shear_rate") / rates)
 
 
 def fluctuations(study):
@@ -115,9 +107,8 @@ def fluctuations(study):
     for axes, (name, plateau, label) in zip(panels[0], names):
         depth_panel(axes, run, label)
         ratios, errors = ratio_to_shear(run, name)
-        rows = [i for i in run.inside()]
-        style.band(axes, [run.z[i] for i in rows], [ratios[i] for i in rows], [min(errors[i], 0.99 * ratios[i]) for i in rows],
-                   style.PARTICLES)
+        rows = run.inside()
+        style.band(axes, run.z[rows], ratios[rows], np.minimum(errors, 0.99 * ratios)[rows], style.PARTICLES)
         axes.set_yscale("log")
         axes.set_ylim(1, 200)
         mean = study.at_main_speed(plateau)
@@ -142,7 +133,8 @@ def fluctuations_over_inertia(study):
     for axes, (name, plateau, label) in zip(panels[0], names):
         for run in study.first_runs():
             if run.has(name):
-                over_inertia(axes, run, *ratio_and_shown_error(run, name), color_of(study, run.rpm), label_of(run))
+                ratios, errors = ratio_to_shear(run, name)
+                over_inertia(axes, run, ratios, np.minimum(errors, 0.9 * ratios), color_of(study, run.rpm), label_of(run))
         axes.set_yscale("log")
         axes.set_ylabel(label)
         interface = study.mean("I_th")["value"]

@@ -43,9 +43,12 @@ class Run:
 
     def inside(self):
         """Layers below the surface and off the wall that shear forwards beyond their interval, from deep to shallow."""
-        rate, half = self.columns["shear_rate"], self.half_width("shear_rate")
-        return [i for i, z in enumerate(self.z)
-                if self.wall + WALL_MARGIN <= z <= -SURFACE_MARGIN and rate[i] > (half[i] if half else 0)]
+        half = self.half_width("shear_rate")
+        return self.off_ends() & (self.columns["shear_rate"] > (0 if half is None else half))
+
+    def off_ends(self, surface_margin=SURFACE_MARGIN):
+        """Which layers lie below the surface and off the wall."""
+        return (self.wall + WALL_MARGIN <= self.z) & (self.z <= -surface_margin)
 
 
 NOT_MEASURED = {"value": math.nan, "ci99": math.nan}

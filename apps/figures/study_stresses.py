@@ -7,7 +7,7 @@ import matplotlib.pyplot as plt
 import style
 from study_panels import depth_panel, draw, limits_of
 from style import FIT
-from study_runs import SURFACE_MARGIN, WALL_MARGIN, label_of, shown
+from study_runs import label_of, shown
 
 
 def weight_of(study, run):
@@ -39,14 +39,11 @@ def stresses(study):
 
 def gradient_panel(axes, study, run, name, label, expected=None, words=None):
     depth_panel(axes, run, label)
-    rows = [i for i, z in enumerate(run.z) if z <= 1]
-    draw(axes, run, name, rows=rows)
-    inside = [i for i, z in enumerate(run.z) if run.wall + WALL_MARGIN <= z <= -SURFACE_MARGIN]
-    low, high = limits_of(run, [name], inside, with_bands=True)
+    draw(axes, run, name, rows=run.z <= 1)
     if expected is not None:
         axes.axhline(expected, color=FIT, label=words)
         axes.legend(loc="upper right", fontsize=10)
-    axes.set_ylim(low, high)
+    axes.set_ylim(*limits_of(run, name, run.off_ends(), with_bands=True))
     axes.set_xlim(run.wall, 2)
 
 

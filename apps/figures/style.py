@@ -150,18 +150,26 @@ class FewNumbers(matplotlib.ticker.LogFormatterSciNotation):
 
 def positive(values):
     """What a logarithmic axis can show; NaN in the place of all else."""
-    return [value if value > 0 else math.nan for value in values]
+    return np.where(np.asarray(values) > 0, values, np.nan)
 
 
 def band(axes, x, y, half_width, color, label=None, marker="o", foot=None, **line):
     """A curve with its 99 % interval as a band around it. x horizontal, y vertical. For a logarithmic axis `foot`, a share of the value, is where a
     band ends that reaches zero, instead of taking the axis with it; values are positive then."""
-    if foot is not None:
-        y = positive(y)
+    y = np.asarray(y, float) if foot is None else positive(y)
     axes.plot(x, y, marker=marker, color=color, label=label, **line)
     if half_width is not None:
-        low = [a - b if foot is None else max(a - b, foot * a) for a, b in zip(y, half_width)]
-        axes.fill_between(x, low, [a + b for a, b in zip(y, half_width)], color=color, alpha=0.25, linewidth=0)
+        low = y - half_width
+        axes.fill_between(x, low if foot is None else np.maximum(low, foot * y), y + half_width, color=color, alpha=0.25, linewidth=0)
+
+
+def depth_axes(axes, H, label, surface):
+    """Axes over depth with marks at the surface, and dotted at the interface where it is known; `surface` is a style of lines."""
+    for z, line in ((0, surface), (-H, ":")):
+        if math.isfinite(z):
+            axes.axvline(z, color="0.4", linestyle=line, linewidth=1)
+    axes.set_xlabel(LABELS["z"])
+    axes.set_ylabel(label)
 
 
 def discs(axes, x, z, radius, values=None, **colours):
@@ -185,16 +193,15 @@ def half_width_of(entry):
 
 
 def read_profiles(path):
-    """(header, columns) of a profiles.csv of version 1; columns as lists of floats, NaN where the field is empty."""
+    """(header, columns) of a profiles.csv of version 1; columns as arrays, NaN where the field is empty."""
     try:
-        _, header, columns = result_files.read_table(path, "drumlin-profiles-1")
+        return result_files.read_table(path, "drumlin-profiles-1")[1:]
     except ValueError as error:
         sys.exit(str(error))
-    return header, {name: [float(value) for value in column] for name, column in columns.items()}
 
 
 def shown_layers(profile):
     """(header, columns) without the loosest layers: a handful of grains in the air would stretch every axis with their error bars."""
     header, columns = profile
-    shown = [i for i, nu in enumerate(columns["nu"]) if nu > LEAST_SHOWN_NU]
-    return header, {name: [values[i] for i in shown] for name, values in columns.items()}
+    shown = columns["nu"] > LEAST_SHOWN_NU
+    return header, {name: values[shown] for name, values in columns.items()}

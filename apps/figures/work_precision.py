@@ -1,7 +1,7 @@
 """Work against precision of `drumlin cost SCENE`: errors over processor seconds, the front and the scene's own settings marked.
 
 usage: work_precision.py COST_JSON FOLDER
-FOLDER takes work_precision.png and, of particles with long runs, statistics.png. draw() is for reports that show both sides.
+FOLDER takes work_precision.png and, of particles with long runs, statistics.png.
 """
 
 import math
@@ -87,9 +87,9 @@ def draw_panel(axes, cost, quantity):
     axes.set_xlabel("processor seconds per second" if cost["kind"] == "particles" else "processor time  [s]")
 
 
-def draw(cost, path, quantities=None):
+def draw(cost):
     """The work-precision diagram of one cost.json, a panel for each quantity."""
-    quantities = [quantity for quantity in quantities or cost["quantities"] if any(error_of(point, quantity) > ROUNDING for point in cost["points"])]
+    quantities = [quantity for quantity in cost["quantities"] if any(error_of(point, quantity) > ROUNDING for point in cost["points"])]
     columns = min(4, len(quantities) + 1)
     rows = math.ceil((len(quantities) + 1) / columns)  # the last place is the legend's
     figure, panels = plt.subplots(rows, columns, figsize=(4.0 * columns, 3.7 * rows), squeeze=False)
@@ -102,7 +102,7 @@ def draw(cost, path, quantities=None):
     handles, labels = panels.flat[0].get_legend_handles_labels()
     panels.flat[len(quantities)].legend(handles, labels, loc="center left", fontsize=10)
     figure.suptitle(style.title_of(f"{cost['title']}: {subtitle(cost)}", cost["reduced"]), fontsize=13)
-    style.save(figure, path, cost["reduced"])
+    return figure
 
 
 def subtitle(cost):
@@ -114,12 +114,12 @@ def subtitle(cost):
     return f"errors against {cost['reference']['unknowns']:,} unknowns, eps {cost['reference']['eps']:g}"
 
 
-def draw_statistics(cost, path):
+def draw_statistics(cost):
     """Measured numbers of long runs with their 99 % intervals, over what the runs took."""
     points = [point for point in cost["points"] if "statistics" in point]
     known = [name for name in STATISTICS if any(name in point["statistics"]["scalars"] for point in points)]
     if not points or not known:
-        return
+        return None
     columns = min(3, len(known))
     rows = math.ceil(len(known) / columns)
     figure, panels = plt.subplots(rows, columns, figsize=(4.6 * columns, 3.6 * rows), squeeze=False)
@@ -144,15 +144,13 @@ def draw_statistics(cost, path):
     panels.flat[0].legend(fontsize=9)
     seconds = points[0]["statistics"]["simulated_seconds"]
     figure.suptitle(style.title_of(f"{cost['title']}: measured over {seconds:g} s, bars 99 %", cost["reduced"]), fontsize=13)
-    style.save(figure, path, cost["reduced"])
+    return figure
 
 
 def main():
     cost = script.content_of(sys.argv[1])
-    folder = pathlib.Path(sys.argv[2])
     style.use_style()
-    draw(cost, folder / "work_precision.png")
-    draw_statistics(cost, folder / "statistics.png")
+    script.save_each({"work_precision": lambda: draw(cost), "statistics": lambda: draw_statistics(cost)}, pathlib.Path(sys.argv[2]), cost["reduced"])
 
 
 if __name__ == "__main__":

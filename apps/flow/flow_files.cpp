@@ -84,7 +84,7 @@ void write_flow(const fs::path& folder, const FinishedFlow& flow) {
   const UnfinishedFile unfinished(folder / "flow.json.part");
   write_json(unfinished.path(), content);
   if (flow.asked.scene.output.figures)
-    draw_figures("flow_figures.py", {folder.string(), "--flow", unfinished.path().string()});
+    draw_figures("flow_figures.py", {folder.string(), unfinished.path().filename().string()});
   write_json(folder / "flow.json", content);
 }
 

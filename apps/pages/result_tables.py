@@ -16,7 +16,9 @@ import tomllib
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "apps" / "figures"))
 
-import whole_file  # noqa: E402  (it lies there)
+import numpy as np  # noqa: E402
+import result_files  # noqa: E402  (they lie there)
+import whole_file  # noqa: E402
 
 DATA = ROOT / "data"
 SPEEDS = (2, 4, 5, 6, 10, 15)
@@ -24,7 +26,7 @@ SPEEDS = (2, 4, 5, 6, 10, 15)
 
 def read(name):
     text = (DATA / name).read_text()
-    return tomllib.loads(text) if name.endswith(".toml") else json.loads(text)
+    return tomllib.loads(text) if str(name).endswith(".toml") else json.loads(text)
 
 
 def number(value, digits=3):
@@ -107,77 +109,76 @@ def paper_differs():
     return table(["quantity", "rpm", "paper", "ours (99 %)"], [row[:4] for row in paper_rows() if row[4] == "differs"])
 
 
+def folder_of(rpm):
+    return DATA / f"bed/{rpm}rpm-{5 if rpm == 6 else 3}turns-seed1/measured"
+
+
 def read_profile(rpm):
     """Columns of a profile at x = 0, from the surface downwards, where v_x is known."""
-    folder = DATA / f"bed/{rpm}rpm-{5 if rpm == 6 else 3}turns-seed1/measured"
-    lines = (folder / "profiles.csv").read_text().splitlines()
-    header = dict(line[2:].split(" = ", 1) for line in lines if line.startswith("# ") and " = " in line)
-    names, *rows = [line.split(",") for line in lines if not line.startswith("#")]
-    rows = [dict(zip(names, row)) for row in rows]
-    rows = [{name: float(row[name]) if row[name] else math.nan for name in ("z", "v_x", "shear_rate", "nu", "I")} for row in rows if row["v_x"]]
-    rows.sort(key=lambda row: -row["z"])
-    return rows, {name: float(header[name]) for name in ("rotation", "axis_depth")}
+    _, header, columns = result_files.read_table(folder_of(rpm) / "profiles.csv")
+    order = np.argsort(-columns["z"], kind="stable")
+    order = order[np.isfinite(columns["v_x"][order])]
+    return {name: values[order] for name, values in columns.items()} | {name: float(header[name]) for name in ("rotation", "axis_depth")}
 
 
-def crossing(rows, name, level):
-    """The highest place z at which a column passes through `level`, below the surface or at it."""
-    for above, below in zip(rows, rows[1:]):
-        a, b = above[name] - level, below[name] - level
-        if a * b <= 0 and a != b:
-            return above["z"] + (below["z"] - above["z"]) * a / (a - b)
+def crossing(profile, name, level, highest=math.inf):
+    """The highest place z below `highest` at which a column passes through `level`."""
+    z, left = profile["z"], profile[name] - level
+    for i in np.flatnonzero((left[:-1] * left[1:] <= 0) & (left[:-1] != left[1:]) & (z[:-1] < highest)):
+        return z[i] + (z[i + 1] - z[i]) * left[i] / (left[i] - left[i + 1])
     return math.nan
 
 
-def at(rows, name, z):
-    for above, below in zip(rows, rows[1:]):
-        if below["z"] <= z <= above["z"]:
-            return below[name] + (above[name] - below[name]) * (z - below["z"]) / (above["z"] - below["z"])
-    return math.nan
+def at_surface(profile):
+    """v_x at z = 0."""
+    return np.interp(0, profile["z"][::-1], profile["v_x"][::-1])
 
 
-def line_depth(rows, keep):
+def line_depth(profile, keep):
     """Where the straight line through the layers below z = 0 that `keep` takes reaches zero."""
-    points = [(row["z"], row["v_x"]) for row in rows if row["z"] <= 0 and keep(row)]
-    n, sz, sv = len(points), sum(z for z, _ in points), sum(v for _, v in points)
-    slope = (sum(z * v for z, v in points) - sz * sv / n) / (sum(z * z for z, _ in points) - sz * sz / n)
-    return -(sz - sv / slope) / n
+    kept = (profile["z"] <= 0) & keep
+    z, v = profile["z"][kept], profile["v_x"][kept]
+    slope, level = np.polyfit(z, v, 1)
+    return level / slope
 
 
 def depths():
     """H of each speed by each definition."""
     paper = rotations()
-    runs = {rpm: read_profile(rpm) for rpm in SPEEDS}
+    runs = [read_profile(rpm) for rpm in SPEEDS]
 
     def of(definition):
-        return [definition(*runs[rpm]) for rpm in SPEEDS]
+        return [definition(run) for run in runs]
 
     def share(part):
-        return lambda rows, _: line_depth(rows, lambda row: row["v_x"] > part * at(rows, "v_x", 0))
+        return lambda run: line_depth(run, run["v_x"] > part * at_surface(run))
 
     def shifted(level):
-        return lambda rows, header: share(0.3)(rows, header) + crossing(rows, "nu", level)
+        return lambda run: share(0.3)(run) + crossing(run, "nu", level)
 
-    def in_laboratory(rows, header):
-        seen = [{**row, "v_x": row["v_x"] + header["rotation"] * (row["z"] + header["axis_depth"])} for row in rows]
-        return share(0.3)(seen, header)
+    def top(depth):
+        return lambda run: line_depth(run, run["z"] > -depth)
 
-    def steepest(rows, _):
-        low = min((row for row in rows if row["z"] <= 0), key=lambda row: -row["shear_rate"] if math.isfinite(row["shear_rate"]) else 0)
-        return low["v_x"] / low["shear_rate"] - low["z"]
+    def in_laboratory(run):
+        return share(0.3)(run | {"v_x": run["v_x"] + run["rotation"] * (run["z"] + run["axis_depth"])})
+
+    def steepest(run):
+        at = np.argmax(np.where(run["z"] <= 0, np.nan_to_num(run["shear_rate"]), -1))
+        return run["v_x"][at] / run["shear_rate"][at] - run["z"][at]
 
     stated = [paper[rpm]["H"] for rpm in SPEEDS]
     found = {
         "line where v_x > 0.3 v_x(0): the project's": of(share(0.3)),
         "the same, v_x > 0.1 v_x(0)": of(share(0.1)),
         "the same, v_x > 0.7 v_x(0)": of(share(0.7)),
-        "line through the top 5 d": of(lambda rows, _: line_depth(rows, lambda row: row["z"] > -5)),
-        "line through the top 8 d": of(lambda rows, _: line_depth(rows, lambda row: row["z"] > -8)),
+        "line through the top 5 d": of(top(5)),
+        "line through the top 8 d": of(top(8)),
         "steepest tangent": of(steepest),
         "surface where nu = 0.4": of(shifted(0.4)),
         "surface where nu = 0.78": of(shifted(0.78)),
         "velocity of the laboratory": of(in_laboratory),
-        "v_x = 0.2 v_x(0)": of(lambda rows, _: -crossing([row for row in rows if row["z"] < 0], "v_x", 0.2 * at(rows, "v_x", 0))),
-        "I = 0.018, the paper's I_th": of(lambda rows, _: -crossing([row for row in rows if row["z"] < -5], "I", 0.018)),
+        "v_x = 0.2 v_x(0)": of(lambda run: -crossing(run, "v_x", 0.2 * at_surface(run), 0)),
+        "I = 0.018, the paper's I_th": of(lambda run: -crossing(run, "I", 0.018, -5)),
     }
     found["the project's, less 4.4 d (fitted to the paper)"] = [H - 4.4 for H in found["line where v_x > 0.3 v_x(0): the project's"]]
 

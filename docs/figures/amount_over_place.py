@@ -24,16 +24,6 @@ BLOCK = (10, 4)  # d
 LEAST_NODES = 10
 
 
-def bed_of(run):
-    """x, z, ln I and |s|/p of the nodes in the bed."""
-    header, x, z, fields, _ = read_maps(run / "measured" / "maps.h5")
-    x, z = numpy.meshgrid(x, z)
-    inside = numpy.hypot(x, z - float(header["axis_depth"])) < float(header["drum_radius"]) - 4
-    inertial = fields["displacement_I"]
-    bed = inside & (z < -3) & (fields["nu"] >= 0.6) & (inertial > LEAST_I) & (inertial < BED_I) & numpy.isfinite(fields["mu"])
-    return x[bed], z[bed], numpy.log(inertial[bed]), fields["mu"][bed]
-
-
 ZONES = {"bed": (LEAST_I, BED_I), "flow": (BED_I, 0.1)}
 VARIABLES = {
     "psi": lambda f: f["displacement_dilation"] / f["displacement_strain_rate"],
@@ -45,16 +35,22 @@ VARIABLES = {
 SETS = [[], ["psi"], ["abs(F)"], ["nu"], ["cosine"], ["ln p"], ["psi", "abs(F)"], ["psi", "cosine"], ["cosine", "abs(F)"], ["psi", "abs(F)", "nu"]]
 
 
-def block_means(run, zone):
-    """Means over blocks of |s|/p, ln I and every variable, by place."""
+def nodes_of(run, zone, variables=()):
+    """x, z and columns of |s|/p, ln I and variables, at the nodes of a zone where all are known."""
     header, x, z, f, _ = read_maps(run / "measured" / "maps.h5")
     x, z = numpy.meshgrid(x, z)
     inertial = f["displacement_I"]
     with numpy.errstate(invalid="ignore", divide="ignore"):
-        columns = [f["mu"], numpy.log(inertial), *(read(f) for read in VARIABLES.values())]
+        columns = [f["mu"], numpy.log(inertial), *(read(f) for read in variables)]
         here = numpy.hypot(x, z - float(header["axis_depth"])) < float(header["drum_radius"]) - 4
         here &= (z < -3) & (f["nu"] >= 0.6) & (inertial > zone[0]) & (inertial < zone[1]) & numpy.isfinite(sum(columns))
-    means = [blocks_of(x[here], z[here], column[here]) for column in columns]
+    return x[here], z[here], [column[here] for column in columns]
+
+
+def block_means(run, zone):
+    """Means over blocks of |s|/p, ln I and every variable, by place."""
+    x, z, columns = nodes_of(run, zone, VARIABLES.values())
+    means = [blocks_of(x, z, column) for column in columns]
     return {place: [of[place] for of in means] for place in means[0]}
 
 
@@ -88,9 +84,10 @@ def main():
     options = parser.parse_args()
     if len(options.runs) < 2:
         parser.error("one run does not tell a pattern from noise: two runs at least")
-    beds = [bed_of(run) for run in options.runs]
-    slope, level = numpy.polyfit(numpy.concatenate([bed[2] for bed in beds]), numpy.concatenate([bed[3] for bed in beds]), 1)
-    blocks = [blocks_of(x, z, amount - level - slope * ln_I) for x, z, ln_I, amount in beds]
+    beds = [nodes_of(run, ZONES["bed"]) for run in options.runs]
+    amounts, ln_I = numpy.concatenate([columns for _, _, columns in beds], axis=1)
+    slope, level = numpy.polyfit(ln_I, amounts, 1)
+    blocks = [blocks_of(x, z, amount - level - slope * logarithm) for x, z, (amount, logarithm) in beds]
     places = sorted(set.intersection(*(set(found) for found in blocks)))
     left = numpy.array([[found[place] for place in places] for found in blocks])
     rms = float(numpy.sqrt(numpy.mean(left**2)))

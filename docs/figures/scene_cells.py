@@ -1,9 +1,7 @@
 """Numbers of scenes in a cell without walls: stress, volume fraction and rates of the whole cell (scene_numbers.py calls them)."""
 
-import math
-
 import numpy
-from scene_runs import inertial_number, mean, velocities
+from scene_runs import da_cruz, inertial_number, mean, strength, velocities
 
 
 def cell_state(snapshot):
@@ -39,22 +37,17 @@ def cell_shear(run):
     return means | {
         "mu": {"value": means["sigma_xz"]["value"] / pressure, "ci99": mean([row["sigma_xz"] / pressure for row in rows])["ci99"]},
         "I": inertial, "pressure_asked": asked(run, "zz"), "slope_over_rate": means["slope"]["value"] / means["shear_rate"]["value"],
-        "da_cruz": {"mu": 0.25 + 1.1 * inertial, "nu": 0.81 - 0.3 * inertial}}
+        "da_cruz": da_cruz(inertial)}
 
 
 def cell_biaxial(run):
-    """sin phi over axial strain of the last stage, and how the volume changes."""
+    """Strength in the last stage."""
     rate = run["snapshots"][-1]["cell"]["rate_z"]
     rows = [cell_state(snapshot) for snapshot in run["snapshots"] if snapshot["cell"]["rate_z"] == rate]
     before = [cell_state(snapshot) for snapshot in run["snapshots"] if snapshot["cell"]["rate_z"] != rate]
-    sine = numpy.array([(row["sigma_zz"] - row["sigma_xx"]) / (row["sigma_zz"] + row["sigma_xx"]) for row in rows])
-    strain = numpy.array([-math.log(row["height"] / before[-1]["height"]) for row in rows])
-    nu = numpy.array([row["nu"] for row in rows])
-    smooth = numpy.convolve(sine, numpy.ones(9) / 9, "valid")
-    late = strain > 0.5 * strain[-1]
-    return {"sin_phi_peak": float(smooth.max()), "strain_at_peak": float(strain[4 + smooth.argmax()]), "sin_phi_late": mean(sine[late]),
-            "strain": float(strain[-1]), "nu_start": before[-1]["nu"], "nu_late": mean(nu[late]), "sigma_xx": mean([row["sigma_xx"] for row in rows]),
-            "pressure_asked": asked(run, "xx"), "compressed_xx": before[-1]["sigma_xx"], "compressed_zz": before[-1]["sigma_zz"]}
+    xx, zz, height, nu = (numpy.array([row[name] for row in rows]) for name in ("sigma_xx", "sigma_zz", "height", "nu"))
+    return strength(-numpy.log(height / before[-1]["height"]), (zz - xx) / (zz + xx), nu, before[-1]["nu"]) | {
+        "sigma_xx": mean(xx), "pressure_asked": asked(run, "xx"), "compressed_xx": before[-1]["sigma_xx"], "compressed_zz": before[-1]["sigma_zz"]}
 
 
 KINDS = {"cell-shear": cell_shear, "cell-biaxial": cell_biaxial}

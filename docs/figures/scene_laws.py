@@ -10,6 +10,7 @@ import math
 import pathlib
 
 import numpy
+import scene_runs
 import script
 import style
 import whole_file
@@ -70,7 +71,7 @@ def drawn(shear, chute, file):
     style.use_style()
     figure, axes = plt.subplots(1, 2, figsize=(9.6, 4.6))
     line = numpy.geomspace(2e-3, 0.25, 60)
-    for axis, name, literature in ((axes[0], "mu", 0.25 + 1.1 * line), (axes[1], "nu", 0.81 - 0.3 * line)):
+    for axis, (name, literature) in zip(axes, scene_runs.da_cruz(line).items()):
         axis.semilogx(line, literature, color=style.PAPER, linestyle="--", label="da Cruz et al. 2005, from memory")
         errors = [point["mu_ci99"] for point in shear] if name == "mu" else None
         axis.errorbar([p["I"] for p in shear], [p[name] for p in shear], yerr=errors, fmt="o", color=style.PARTICLES, label="plane shear")

@@ -15,7 +15,7 @@ import scene_cells
 import scene_events
 import scene_frames
 import whole_file
-from scene_runs import inertial_number, layer_state, line, mean, read_run, velocities, wall_forces
+from scene_runs import da_cruz, inertial_number, layer_state, line, mean, read_run, strength, velocities, wall_forces
 
 
 def wall_number(scene, name):
@@ -53,7 +53,7 @@ def shear(run):
         "I": inertial, "I_gap": inertial_gap, "pressure_asked": asked,
         "mu_gap": {"value": means["lid_drag"]["value"] / asked, "ci99": means["lid_drag"]["ci99"] / asked},
         "slip": 1 - means["shear_rate"]["value"] / means["shear_rate_gap"]["value"],
-        "da_cruz": {"mu": 0.25 + 1.1 * inertial, "nu": 0.81 - 0.3 * inertial, "mu_gap": 0.25 + 1.1 * inertial_gap, "nu_gap": 0.81 - 0.3 * inertial_gap}}
+        "da_cruz": da_cruz(inertial) | da_cruz(inertial_gap, "_gap")}
 
 
 def chute(run):
@@ -89,7 +89,7 @@ def chute(run):
 
 
 def biaxial(run):
-    """sin phi over axial strain: its peak, its late value, and how the volume changes."""
+    """Strength of what lies between lid and sides."""
     d, scene = run["d_mm"], run["scene"]
     lid, right = (wall_number(scene, name) for name in ("lid", "right"))
     at = {wall["name"]: wall["from_mm"] for wall in scene["walls"]}
@@ -102,11 +102,7 @@ def biaxial(run):
         s_3 = 0.5 * (forces["right"][0] - forces["left"][0]) / height
         rows.append((height, (s_1 - s_3) / (s_1 + s_3), snapshot["mass"].sum() / (width * height)))
     height, sine, nu = numpy.array(rows).T
-    strain = 1 - height / height[0]
-    smooth = numpy.convolve(sine, numpy.ones(9) / 9, "valid")
-    late = strain > 0.5 * strain[-1]
-    return {"sin_phi_peak": float(smooth.max()), "strain_at_peak": float(strain[4 + smooth.argmax()]), "sin_phi_late": mean(sine[late]),
-            "strain": float(strain[-1]), "nu_start": float(nu[0]), "nu_late": mean(nu[late]), "nu_least": float(nu.min())}
+    return strength(1 - height / height[0], sine, nu, nu[0]) | {"nu_least": float(nu.min())}
 
 
 def janssen(run):

@@ -73,6 +73,19 @@ def mean(values):
     return {"value": float(values.mean()), "ci99": float(FACTOR * batches.std(ddof=1) / math.sqrt(BATCHES))}
 
 
+def da_cruz(inertial, suffix=""):
+    """What da Cruz et al. found of discs in plane shear."""
+    return {"mu" + suffix: 0.25 + 1.1 * inertial, "nu" + suffix: 0.81 - 0.3 * inertial}
+
+
+def strength(strain, sine, nu, nu_start):
+    """sin phi over axial strain: its peak, its late value, and how the volume changes."""
+    smooth = numpy.convolve(sine, numpy.ones(9) / 9, "valid")
+    late = strain > 0.5 * strain[-1]
+    return {"sin_phi_peak": float(smooth.max()), "strain_at_peak": float(strain[4 + smooth.argmax()]), "sin_phi_late": mean(sine[late]),
+            "strain": float(strain[-1]), "nu_start": float(nu_start), "nu_late": mean(nu[late])}
+
+
 def line(x, y):
     """Slope, constant and share of the variance that a straight line explains."""
     slope, constant = numpy.polyfit(x, y, 1)

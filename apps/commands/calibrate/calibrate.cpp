@@ -244,8 +244,7 @@ int calibrate(const CalibrateOptions& options) {
   nlohmann::ordered_json content = calibration_json(calibration, all);
   content["asked"] = asked_for(options);
   write_json(record, content);
-  draw_figures("calibrate_figures.py",
-               {record.string(), "--output", beside(options.output, ".png").string()});
+  draw_figures("calibrate_figures.py", {record.string(), beside(options.output, ".png").string()});
   // Last: its presence says that all is there.
   write_rheology(options.output, calibration.rheology);
 

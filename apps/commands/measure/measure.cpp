@@ -366,7 +366,7 @@ void print_results(const Request& request, const fs::path& folder, const particl
 
 /// Of the files that are there now.
 std::vector<FigureScript> figures_of(const Request& request, const fs::path& folder) {
-  const std::vector<std::string> words{folder.string(), "--measured", (folder / "measured.json").string()};
+  const std::vector<std::string> words{folder.string()};
   std::vector<FigureScript> figures{{"measure_figures.py", words}};
   for (const Part& part : request.parts)
     if (!part.figures.empty()) figures.push_back({part.figures, words});

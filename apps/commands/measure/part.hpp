@@ -28,7 +28,7 @@ struct Part {
   std::function<void(const particles::Measurement&, const PartOutput&)> write;
   std::function<void()> print;  ///< what it found, in lines after the scalars; may be empty
   /// Script of apps/figures that draws its figures once all files are there; empty: none. It is called with
-  /// the folder and "--measured RUN/measured/measured.json", as measure_figures.py is.
+  /// the folder, as measure_figures.py is.
   std::string figures;
 };
 
