@@ -30,6 +30,7 @@ struct Execute {
   int operator()(const apps::FlowOptions& options) const { return apps::flow(options); }
   int operator()(const apps::CompareOptions& options) const { return apps::compare(options); }
   int operator()(const apps::CompareStudyOptions& options) const { return apps::compare_study(options); }
+  int operator()(const apps::ScoreOptions& options) const { return apps::score(options); }
   int operator()(const apps::SceneOptions& options) const { return apps::scene(options); }
   int operator()(const apps::AcceptOptions& options) const { return apps::accept(options); }
   int operator()(const apps::CostOptions& options) const { return apps::cost(options); }

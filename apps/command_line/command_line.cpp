@@ -100,6 +100,10 @@ class CommandLine {
     add_flow_options(add_command("flow", "Solves the continuum flow with a law (starts drumlin-flow)", flow_),
                      flow_);
     add_compare();
+    add_score_options(
+        add_command("score", "Errors of any continuum of a drum against the particles, beside their limits",
+                    score_),
+        score_);
     add_scene();
     add_solve_contacts_options(
         add_command("solve-contacts", "Solves one contact problem from a file", solve_contacts_),
@@ -225,6 +229,7 @@ class CommandLine {
   FlowOptions flow_;
   CompareOptions compare_;
   CompareStudyOptions compare_study_;
+  ScoreOptions score_;
   SceneOptions scene_;
   SolveContactsOptions solve_contacts_;
   CostOptions cost_;

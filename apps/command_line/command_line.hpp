@@ -17,7 +17,7 @@ struct TextToShow {
 using Request = std::variant<TextToShow, RunOptions, MeasureOptions, ImportOptions, CalibrateOptions,
                              FlowOptions, CompareOptions, SceneOptions, SolveContactsOptions, PlotOptions,
                              CostOptions, ExportOptions, HardcasesOptions, StudyOptions, CompareStudyOptions,
-                             AcceptOptions, HistoryOptions, ReportOptions, NewSceneOptions>;
+                             ScoreOptions, AcceptOptions, HistoryOptions, ReportOptions, NewSceneOptions>;
 
 /// Throws InputError on wrong usage. `solvers` are the names that --solver takes.
 Request parse_command_line(int argc, const char* const* argv, const std::vector<std::string>& solvers);

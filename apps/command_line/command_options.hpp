@@ -28,6 +28,7 @@ void add_calibrate_options(CLI::App& command, CalibrateOptions& options);
 void add_flow_options(CLI::App& command, FlowOptions& options);
 /// Either a pair is compared, or all speeds of both sides are.
 void add_compare_options(CLI::App& command, CompareOptions& options, CompareStudyOptions& study);
+void add_score_options(CLI::App& command, ScoreOptions& options);
 void add_accept_options(CLI::App& command, AcceptOptions& options);
 void add_cost_options(CLI::App& command, CostOptions& options);
 

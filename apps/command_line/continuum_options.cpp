@@ -96,4 +96,22 @@ void add_compare_options(CLI::App& command, CompareOptions& options, CompareStud
                     "the noise floor between seeds (data/limits/bed.toml)");
 }
 
+void add_score_options(CLI::App& command, ScoreOptions& options) {
+  command
+      .add_option("fields", options.fields,
+                  "Folder of a continuum flow; profiles.csv or maps.h5 of one; or another program's fields "
+                  "in CSV (docs/formats/score.md)")
+      ->required()
+      ->type_name("FIELDS");
+  command.add_option("--limits", options.limits, "Limits, as data/limits/bed.toml")
+      ->required()
+      ->type_name("LIMITS.toml");
+  command
+      .add_option("--against", options.against,
+                  "Measured runs of that drum at that speed; those of data/bed unless told")
+      ->type_name("RUN...");
+  add_folder_or_file(command, "-o,--output", options.output, "SCORE", "Folder for score.json and score.md");
+  add_existing(command, options.existing, keep_what_is_done);
+}
+
 }  // namespace drumlin::apps

@@ -20,10 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Fields of the balance of momentum and of single parts of the stress: what checks a measurement, and no law
-/// or comparison reads.
+/// Fields of the balance of momentum: what checks a measurement, and no law or comparison reads.
 bool is_kept(const MapField& field) {
-  constexpr std::array left_out{"kinetic", "residual", "inertia", "wall_"};
+  constexpr std::array left_out{"residual", "inertia", "wall_"};
   return std::none_of(left_out.begin(), left_out.end(),
                       [&](const char* part) { return field.name.find(part) != std::string::npos; });
 }

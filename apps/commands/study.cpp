@@ -1,11 +1,13 @@
-// drumlin measure --study, drumlin compare --study: checks the folders, compares their pairs, and starts
-// drumlin.study of the Python package, which reads them and writes what they say together.
+// drumlin measure --study, drumlin compare --study, drumlin score: checks the folders, compares their pairs,
+// and starts drumlin.study of the Python package, which reads them and writes what they say together.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/compare_inputs.hpp"
+#include "apps/commands/score_fields.hpp"
 #include "apps/json/comparison_json.hpp"
 #include "apps/json/json_file.hpp"
 #include "apps/output/commands.hpp"
@@ -14,6 +16,7 @@
 #include "apps/output/paper_data.hpp"
 #include "apps/output/pending_figures.hpp"
 #include "apps/process/asked.hpp"
+#include "apps/process/program_files.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/documents/document.hpp"
@@ -117,7 +120,7 @@ int carried_out(StudyRequest request) {
   note_pending_figures(folder);
   write_json(given_file, given);
   const std::string said =
-      study_by_script({folder.string(), paper_data_folder().string(), given_file.string()});
+      study_by_script("command.py", {folder.string(), paper_data_folder().string(), given_file.string()});
   fs::remove(given_file);
   auto& words = request.figures.arguments;
   words.insert(words.begin(), folder.string());
@@ -130,7 +133,53 @@ int carried_out(StudyRequest request) {
   return static_cast<int>(ExitCode::done);
 }
 
+/// Runs of data/bed in the drum and at the speed of a flow.
+std::vector<fs::path> runs_of_the_bed(const RunHeader& flow) {
+  std::vector<fs::path> runs;
+  const fs::path bed = data_folder() / "bed";
+  if (fs::is_directory(bed))
+    for (const auto& entry : fs::directory_iterator(bed)) {
+      const RunHeader run = read_profiles(entry.path() / "measured" / "profiles.csv").header;
+      const auto differ = [&](HeaderNumber number) {
+        return std::abs(number_or_nan(run, number) / number_or_nan(flow, number) - 1);
+      };
+      if (differ(&RunHeader::rotation) <= 0.005 && differ(&RunHeader::drum_radius) <= 1e-3 &&
+          differ(&RunHeader::diameter_m) <= 1e-3)
+        runs.push_back(entry.path());
+    }
+  if (runs.empty())
+    throw InputError(bed.string() + ": holds no run of this drum at this speed; name some by --against");
+  std::sort(runs.begin(), runs.end());
+  return runs;
+}
+
 }  // namespace
+
+int score(const ScoreOptions& options) {
+  Json inputs{input_sum(options.fields), input_sum(options.limits)};
+  for (const fs::path& run : options.against) inputs.push_back(measured_run_sum(run));
+  const std::string asked = asked_sum(inputs);
+  if (options.existing == ExistingOutput::resume && is_complete(options.output / "score.json"))
+    return done_already(options.output, asked);
+  StagedOutput output(
+      {options.output, options.existing, "score", {options.fields, options.limits}, {}, asked});
+  const fs::path& folder = output.folder();
+  fs::path flow = options.fields;
+  if (!fs::is_directory(flow)) write_flow_of_fields(options.fields, flow = folder / "flow");
+  const RunHeader header = read_flow_run(flow).profiles.header;
+  std::vector<fs::path> sides = options.against.empty() ? runs_of_the_bed(header) : options.against;
+  sides.push_back(flow);
+  const fs::path given_file = folder / "given.json";
+  Json given = given_of({sides, {}, {}, true, options.limits, {}, {}});
+  given["scored"] = fs::absolute(options.fields).lexically_normal().filename().string();
+  write_json(given_file, given);
+  const std::string said =
+      study_by_script("command.py", {folder.string(), paper_data_folder().string(), given_file.string()});
+  fs::remove(given_file);
+  output.publish();
+  print_out(said);
+  return static_cast<int>(ExitCode::done);
+}
 
 int study(const StudyOptions& options) {
   FigureScript figures{"study_figures.py", {paper_data_folder().string()}};

@@ -165,6 +165,16 @@ struct CompareStudyOptions {
 /// `drumlin compare --study`: both sides over the speed of rotation.
 int compare_study(const CompareStudyOptions&);
 
+struct ScoreOptions {
+  std::filesystem::path fields;                ///< FLOWRUN, or a file of profiles, maps or fields
+  std::filesystem::path limits;                ///< by which they are judged
+  std::vector<std::filesystem::path> against;  ///< measured runs; empty: those of data/bed at that speed
+  std::filesystem::path output;
+  ExistingOutput existing = ExistingOutput::refuse;
+};
+/// Errors of one continuum against runs, each beside its limit and noise floor.
+int score(const ScoreOptions&);
+
 enum class SceneAction { check, show, keys, list };
 struct SceneOptions {
   SceneAction action = SceneAction::check;

@@ -58,9 +58,9 @@ void draw_figures(const std::string& script, const std::vector<std::string>& arg
   require_success(end, script, said);
 }
 
-std::string study_by_script(const std::vector<std::string>& arguments) {
+std::string study_by_script(const std::string& script, const std::vector<std::string>& arguments) {
   std::string said;
-  const ProcessEnd end = end_of_script("../study/command.py", arguments, said);
+  const ProcessEnd end = end_of_script("../study/" + script, arguments, said);
   if (end.shell_code() == static_cast<int>(ExitCode::wrong_input))
     throw InputError(said.substr(0, said.find_last_not_of('\n') + 1));
   require_success(end, "study", said);

@@ -41,7 +41,7 @@ def layer_at_rest(drumlin, data, folder):
 def main():
     drumlin, here, data = Drumlin(sys.argv[1]), pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
     scene, flow_scene = here / "tiny-drum.toml", here / "tiny-drum-flow.toml"
-    law = data / "rheology" / "paper.toml"
+    law, limits = data / "rheology" / "paper.toml", data / "limits" / "bed.toml"
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         missing, full, long = folder / "missing", folder / "full", folder / ("x" * 300)
@@ -56,12 +56,13 @@ def main():
             "a missing file": [
                 ["run", missing, "-o", output], ["measure", missing], ["calibrate", missing, "-o", output],
                 ["flow", missing, "--rheology", law, "-o", output], ["flow", flow_scene, "--rheology", missing, "-o", output],
-                ["compare", missing, missing, "-o", output], ["scene", "check", missing], ["solve-contacts", missing]],
+                ["compare", missing, missing, "-o", output], ["score", missing, "--limits", limits, "-o", output], ["score", full, "--limits", missing, "-o", output],
+                ["scene", "check", missing], ["solve-contacts", missing]],
             "a folder in place of a file": [
                 ["run", full, "-o", output], ["calibrate", full, "-o", output], ["measure", full],
                 ["flow", full, "--rheology", law, "-o", output], ["flow", flow_scene, "--rheology", full, "-o", output],
                 ["flow", flow_scene, "--rheology", law, "--from", full, "-o", output],
-                ["compare", full, full, "-o", output], ["scene", "check", full], ["solve-contacts", full]],
+                ["compare", full, full, "-o", output], ["score", full, "--limits", limits, "-o", output], ["scene", "check", full], ["solve-contacts", full]],
             "a file in place of a folder": [
                 ["run", scene, "-o", full / "keep.txt"], ["measure", scene], ["compare", scene, scene, "-o", output],
                 ["flow", flow_scene, "--rheology", law, "-o", full / "keep.txt"]],
@@ -94,7 +95,7 @@ def main():
                 require(bytes_below(folder) == before, f"{reason}: {words} touched files")
         print(f"{sum(map(len, refused.values()))} commands refused with exit code 2")
         shown = 0
-        for words in ([], ["run"], ["measure"], ["calibrate"], ["flow"], ["compare"], ["scene"], ["solve-contacts"],
+        for words in ([], ["run"], ["measure"], ["calibrate"], ["flow"], ["compare"], ["score"], ["scene"], ["solve-contacts"],
                       ["plot"], ["export"], ["history"]):
             text, _ = drumlin(*words, "--help")
             require(len(text) > 100, f"{words} --help says too little")

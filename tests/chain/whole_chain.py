@@ -188,6 +188,7 @@ def check_measurements(drumlin, run, flow, law, folder):
     require(bytes_below(kept) == before, "repeating export changed files")
     sizes = [sum(path.stat().st_size for path in folder_of.rglob("maps.h5")) for folder_of in (kept, run)]
     require(0 < sizes[0] < sizes[1], f"maps of {sizes} bytes")
+    require(b"sigma_xz_kinetic\n" in (kept / "measured" / "maps.h5").read_bytes(), "the kinetic stress is not in the maps")
     drumlin("calibrate", kept, "-o", folder / "kept.toml", "--accept-unsteady")
     laws = [tomllib.loads(file.read_text(encoding="utf-8"))["mu"] for file in (law, folder / "kept.toml")]
     for key in laws[0]:

@@ -168,6 +168,14 @@ def compare(run_folder, flow_folder, output, overwrite: bool = False, accept_uns
     return read(output)
 
 
+def score(fields, limits, output, against=(), overwrite: bool = False, progress: bool | None = None) -> dict:
+    """`drumlin score`: errors of a continuum (the folder of a flow, or a file of its profiles, maps or fields) against runs, by limits; the content of
+    score.json (docs/formats/score.md). against: measured runs, those of data/bed at that speed unless told. progress: as in run."""
+    output = pathlib.Path(output)
+    _command(["score", fields, "--limits", limits, "-o", output, *(["--against", *against] if against else []), *_existing(overwrite)], "score", output, progress)
+    return read(output / "score.json")
+
+
 def sweep(scene, values: dict, output, processes: int | None = None, progress: bool | None = None) -> list[tuple[dict, Folder]]:
     """Runs a scene with every combination of values, {"effects.friction.grain_grain": [0.2, 0.4]}, in parallel processes of one thread each.
 

@@ -1,10 +1,10 @@
-"""What `drumlin measure --study` and `drumlin compare --study` start once they have checked all folders: writes study.json and its tables and prints
-what the command says. A refusal is printed and ends with exit code 2.
+"""What `drumlin measure --study`, `drumlin compare --study` and `drumlin score` start once they have checked all folders: writes study.json (score.json)
+and its tables and prints what the command says. A refusal is printed and ends with exit code 2.
 
 usage: command.py STUDY PAPER GIVEN
   STUDY  folder of the results
   PAPER  the folder data/paper
-  GIVEN  JSON: both_sides, runs and flows (folders), pairs, limits (a file, or null), provenance
+  GIVEN  JSON: both_sides, runs and flows (folders), pairs, limits (a file, or null), provenance, scored (of a score: the name)
 """
 
 import json
@@ -36,17 +36,28 @@ def of_both_sides(runs, flows, given, paper):
             tables, said)
 
 
+def of_score(runs, flows, given):
+    pairs = {(pair["first"], pair["second"], pair["by"]): pair for pair in given["pairs"]}
+    content = study.plain(study.score(study.read_limits(given["limits"]), runs, flows[0], pairs))
+    table = study.score_table(given["scored"], content)
+    return {"format": "drumlin-score-1", "scored": given["scored"]}, content, {"score.md": table}, table
+
+
 def main(output, paper, file):
     sys.stdout.reconfigure(encoding="utf-8", errors="surrogateescape")
     given = json.loads(pathlib.Path(file).read_text(encoding="utf-8"))
     try:
         runs, flows = [study.read_run(folder) for folder in given["runs"]], [study.read_flow(folder) for folder in given["flows"]]
-        head, content, tables, said = of_both_sides(runs, flows, given, paper) if given["both_sides"] else of_particles(runs, paper)
+        if "scored" in given:
+            head, content, tables, said = of_score(runs, flows, given)
+        else:
+            head, content, tables, said = of_both_sides(runs, flows, given, paper) if given["both_sides"] else of_particles(runs, paper)
     except InputError as error:
         print(error)
         sys.exit(2)
     content = head | {"reduced": (flows or runs)[0].reduced} | content | {"provenance": given["provenance"]}
-    for name, text in (tables | {"study.json": json.dumps(content, indent=2, ensure_ascii=False) + "\n"}).items():
+    record = "score.json" if "scored" in given else "study.json"
+    for name, text in (tables | {record: json.dumps(content, indent=2, ensure_ascii=False) + "\n"}).items():
         # A name of others may be no UTF-8: it stands there with the sign for an unknown letter.
         whole_file.write_text(pathlib.Path(output) / name, text.encode("utf-8", "surrogateescape").decode("utf-8", "replace"))
     print(said, end="")

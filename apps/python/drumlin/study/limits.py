@@ -10,8 +10,8 @@ import scipy.interpolate
 
 from ..figures import result_files
 from .fits import mean, pooled_speeds
-from .runs import read_toml, refused, same_speed
-from .sides import number, pair
+from .runs import read_toml, refused, require_one_study, same_speed
+from .sides import number, pair, require_one_drum
 
 FIELDS = (("flowing", "static", "all"), ("relative", "rms"))
 # What may be judged where: zones and measures.
@@ -143,3 +143,23 @@ def judged_limits(limits, runs, flows, pairs):
             "judged_by_calibrating_runs": [name for name in judges if name in fitted_on],
             "rows": [_row(speeds, limit, by, limits.get("floor_factor", 1.5), pairs, tractions)
                      for by in ("axis", "surface") for limit in limits["limits"]]}
+
+
+def score(limits, runs, flow, pairs):
+    """One flow judged by limits, against the runs at its speed that calibrated nothing: the content of score.json (docs/formats/score.md) but format, name
+    and origins. Arguments as of judged_limits(); a limit of the mean over speeds holds for the one."""
+    if problems := require_one_drum(runs[0], [flow]):
+        raise refused(problems)
+    require_one_study(runs)
+    each = [{key: value for key, value in limit.items() if key != "must_worst"} for limit in limits["limits"]]
+    judged, rows = judged_limits(limits | {"limits": each}, runs, [flow], pairs), []
+    if not judged["rows"] or not judged["rows"][0]["cells"]:
+        raise refused([(flow.name, "rotation", f"no run turns at {flow.rotation_rpm:.4g} rpm", "runs at the speed of what is scored")])
+    for row in judged["rows"]:
+        cell, name = row["cells"][0], ("registered_by", "quantity", "zone", "where", "measure")
+        rows.append({key: row[key] for key in name} | {"error": cell["value"], "limit": cell["limit"], "must": row["must"], "aim": row["aim"],
+                                                       "noise_floor": cell["floor"], "met": cell["met"]})
+    by_axis = [row["met"] for row in rows if row["registered_by"] == "axis"]
+    counts = {"met": by_axis.count(True), "missed": by_axis.count(False), "not_measured": by_axis.count(None)}
+    return {"rotation_rpm": flow.rotation_rpm, "against": judged["judged_by"] or judged["judged_by_calibrating_runs"],
+            "calibrated_on_them": not judged["judged_by"], "verdict": counts, "rows": rows}

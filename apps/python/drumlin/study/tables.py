@@ -141,3 +141,13 @@ def limits_table(judged):
     if names:
         text += f"\nJudged by runs that calibrated the law, since their speed has no others: {json.dumps(names, separators=(',', ':'))}\n"
     return text
+
+
+def score_table(name, content):
+    """What `drumlin score` prints: a line per limit, by the axis."""
+    words = {True: "yes", False: "**no**", None: "not measured"}
+    rows = [[f"{' '.join(filter(None, _name(row)))}, {row['where']}, {row['measure']}", shown(row["error"], 3), f"{shown(row['limit'], 3)}; {shown(row['aim'], 3)}",
+             shown(row["noise_floor"], 3), words[row["met"]]] for row in content["rows"] if row["registered_by"] == "axis"]
+    counts = ", ".join(f"{count} {outcome.replace('_', ' ')}" for outcome, count in content["verdict"].items())
+    runs = f"{', '.join(content['against'])}{' (which calibrated its law)' if content['calibrated_on_them'] else ''}"
+    return f"{name} at {shown(content['rotation_rpm'])} rpm against {runs}: {counts}\n\n" + _table(["quantity", "error", "limit; aim", "noise floor", "met"], rows)
