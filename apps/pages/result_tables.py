@@ -279,6 +279,38 @@ def limits():
     return table(["", "must; aim", "noise floor, 6 rpm", "mu(I) alone, 6 rpm", "memory of the axes, 6 rpm", *head], rows)
 
 
+def scores():
+    """Continua at 6 rpm as `drumlin score` judges them."""
+    laws = read("memory/scores-6rpm.json")["laws"]
+    found = {name: {(row["quantity"], row["where"], row["zone"]): row for row in entry["score"]["rows"] if row["registered_by"] == "axis"}
+             for name, entry in laws.items()}
+    rows = [[name, *(judged({"value": rows[key]["error"], "met": rows[key]["met"]}) for rows in found.values())] for key, name in ROWS.items()]
+    rows.append(["met, of 14", *(str(sum(bool(rows[key]["met"]) for key in ROWS)) for rows in found.values())])
+    return table(["", *found], rows)
+
+
+def sizes():
+    """Half filled drums with friction 0.4 of three sizes, and the continuum of the same drums, read at the same places."""
+    record = read("sizes/sizes.json")
+    runs = [run for run in record["runs"] if run["filling"] == "half" and run["friction"] == 0.4]
+    diameters, words = sorted({run["diameter_mm"] for run in runs}), {"theta_deg": "theta (deg)", "H": "H (d)", "shear_rate": "shear rate"}
+
+    def row(name, value):
+        return [name, *(value(key, diameter) for key in words for diameter in diameters)]
+
+    def particles(key, diameter):
+        values = [run[key]["value"] for run in runs if run["diameter_mm"] == diameter]
+        return number(sum(values) / len(values))
+
+    def flow(law):
+        found = {(key, one["diameter_mm"]): one["scalars"][key]["continuum"] for one in record["continuum"] if one["law"] == law for key in words}
+        return lambda key, diameter: number(found[key, diameter]["value"] if isinstance(found.get((key, diameter)), dict) else found.get((key, diameter)))
+
+    rows = [row("particles", particles), row("power of D", lambda key, diameter: interval(record["powers"]["0.4"][key]) if diameter == diameters[0] else "")]
+    rows += [row(law, flow(law)) for law in dict.fromkeys(one["law"] for one in record["continuum"])]
+    return table(["", *(f"{name}: {diameter:g} mm" if diameter == diameters[0] else f"{diameter:g}" for name in words.values() for diameter in diameters)], rows)
+
+
 def second_variable():
     """rms of |s|/p that ln I and further variables leave over the blocks of the maps."""
     found = read("memory/amount-over-place-6rpm.json")["beside_ln_I"]
@@ -296,6 +328,8 @@ TABLES = {
     "mu(I) over speed": speeds,
     "effects over speed": effects_over_speed,
     "limits": limits,
+    "scores": scores,
+    "sizes": sizes,
     "second variable": second_variable,
 }
 PLACE = re.compile(r"(<!-- table (?P<name>[^>]*) -->\n)(?P<text>.*?)(<!-- end of table -->)", re.DOTALL)

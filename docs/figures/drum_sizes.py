@@ -1,8 +1,8 @@
 """Drums of several sizes at one Froude number: what is measured on each, its powers of D/d, and what the continuum makes of the same drums.
 
-usage: drum_sizes.py RECORD.json --runs RUN... [--flows LAW=STUDY...]
+usage: drum_sizes.py RECORD.json --law LAW.toml --runs RUN... [--flows LAW=STUDY...]
        drum_sizes.py RECORD.json --picture PICTURE.png
-Each RUN is measured with maps; each STUDY is what `drumlin compare --study RUN... FLOW -o STUDY` left of one flow. phi counts from below the axis,
+Each RUN is measured with maps; LAW is a table mu(I), which |s|/p of the flowing layer at x = 0 is set beside; each STUDY is what `drumlin compare --study RUN... FLOW -o STUDY` left of one flow. phi counts from below the axis,
 positive downslope, as in bed_edges.py.
 """
 
@@ -23,7 +23,18 @@ FITTED = {"theta_deg": "theta", "H": "H", "shear_rate": "shear rate", "slip_-60"
 HALF = 0.33  # share of the drum's area that discs cover, between the two fillings
 
 
-def run_of(run):
+def flowing_of(run, depth, law):
+    """|s|/p of the flowing layer above -depth, that of the law at the same I, means weighted by sigma_zz."""
+    _, c = style.read_profiles(run / "measured" / "profiles.csv")
+    z, xx, zz, xz, rate = (numpy.array(c[name]) for name in ("z", "sigma_xx", "sigma_zz", "sigma_xz", "shear_rate"))
+    at = (z > -depth) & (z < -2)
+    p = (xx + zz)[at] / 2
+    mu = numpy.interp(numpy.log(abs(rate[at]) / numpy.sqrt(p)), numpy.log(law["I"]), law["mu"])
+    ratio = numpy.hypot(xz, (xx - zz) / 2)[at] / p
+    return {"stress_ratio": float(numpy.average(ratio, weights=zz[at])), "law": float(numpy.average(mu, weights=zz[at]))}
+
+
+def run_of(run, law):
     measured, record = (json.loads((run / name).read_text()) for name in ("measured/measured.json", "run.json"))
     scene = tomllib.loads((run / "scene.toml").read_text())
     fields, radius, rotation = fields_of(run)
@@ -35,7 +46,7 @@ def run_of(run):
              "steady": measured["steadiness"]["steady"]}
     found |= {name: {key: measured[name][key] for key in ("value", "ci99")} for name in SCALARS}
     found |= {f"slip_{angle}": {"value": wall["slip"][ANGLES.index(angle)]} for angle in SLIP_AT}
-    return found | {"slip_length": slip_length(wall)}
+    return found | {"slip_length": slip_length(wall), "flowing": flowing_of(run, found["H"]["value"], law)}
 
 
 def powers_of(runs):
@@ -98,6 +109,7 @@ def draw(record, picture):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("record", type=pathlib.Path)
+    parser.add_argument("--law", type=pathlib.Path)
     parser.add_argument("--runs", type=pathlib.Path, nargs="+")
     parser.add_argument("--flows", nargs="+", default=[])
     parser.add_argument("--picture", type=pathlib.Path)
@@ -105,7 +117,8 @@ def main():
     if options.picture:
         draw(json.loads(options.record.read_text()), options.picture)
         return
-    runs = sorted(map(run_of, options.runs), key=lambda run: (run["filling"] != "half", -run["friction"], run["D"], run["seed"]))
+    law = tomllib.loads(options.law.read_text())["mu"]
+    runs = sorted((run_of(run, law) for run in options.runs), key=lambda run: (run["filling"] != "half", -run["friction"], run["D"], run["seed"]))
     diameters = {run["run"]: run["diameter_mm"] for run in runs}
     flows = [flow_of(law, pathlib.Path(study), diameters) for law, study in (entry.split("=", 1) for entry in options.flows)]
     record = {"format": "drumlin-sizes-1", "runs": runs, "powers": powers_of(runs), "continuum": flows}
