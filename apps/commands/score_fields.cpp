@@ -90,6 +90,8 @@ void write_flow_of_fields(const fs::path& file, const fs::path& folder) {
     profiles = middle_of(map);
     scales = map.scales;
   }
+  if (profiles.header.side != RunSide::continuum)
+    throw InputError({InputProblem{file.string(), 0, 0, "side", "is not that of a continuum", "continuum"}});
   write_profiles(folder / "profiles.csv", profiles);
   replace_file(folder / "flow_scene.toml", "[effects]\n");
   const double theta = needed_number(profiles.header, &RunHeader::theta_deg, file.string());

@@ -134,7 +134,7 @@ def test_what_cannot_be_scored_is_refused_and_leaves_nothing(tmp_path, bed):
     fields_file = write_fields(tmp_path / "fields.csv", fields())
     (tmp_path / "notes.txt").write_text("v_x\n")
     for given, run, words in ((fields_file, other, "no run turns at 6 rpm"), (tmp_path / "notes.txt", bed, "is no file of fields"),
-                              (bed, bed, "no flow.json"), (bed / "measured/maps.h5", bed, "side: is particles")):
+                              (bed, bed, "no flow.json"), (bed / "measured/maps.h5", bed, "maps.h5: side: is not that of a continuum")):
         with pytest.raises(drumlin.InputError, match=words):
             scored(given, run)
         assert not (tmp_path / "score").exists()
