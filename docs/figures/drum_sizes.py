@@ -90,7 +90,7 @@ def draw(record, picture):
             full = "full" if filling == "half" else "none"
             axes.plot([run["D"] for run in here], [run[name]["value"] for run in here], marker, color=colour, fillstyle=full, ls="none",
                       label=f"particles, {filling}, friction {friction:g}")
-        for law, marker in zip(dict.fromkeys(flow["law"] for flow in record["continuum"]), "x+14"):
+        for law, marker in zip(dict.fromkeys(flow["law"] for flow in record["continuum"]), "x+142"):
             flows = [flow for flow in record["continuum"] if flow["law"] == law and name in flow["scalars"]]
             axes.plot([flow["diameter_mm"] / 3.3 for flow in flows], [number(flow["scalars"][name]["continuum"]) for flow in flows], marker, ms=9,
                       color=style.CONTINUUM, ls="none", label=f"continuum, {law}")
