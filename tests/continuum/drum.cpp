@@ -196,16 +196,5 @@ TEST(DrumProblem, TakesTheMemoryOfItsLawAndRefusesItWithoutOneAndWithK) {
   expect_has(message_of<InputError>([&] { (void)drum_problem(scene, law); }), "effects.memory: turns");
 }
 
-TEST(NoSteadyState, IsSaidOfASlopeThatTheLawCannotCarry) {
-  FlowProblem problem;
-  problem.law = LogLaw{0.35, 0.013};
-  problem.slope = FixedSlope{18 * std::numbers::pi / 180};
-  EXPECT_FALSE(no_steady_state(problem));
-  problem.slope = FixedSlope{23 * std::numbers::pi / 180};  // tan = 0.424, the law gives 0.380 at I = 10
-  EXPECT_TRUE(no_steady_state(problem));
-  problem.slope = SlopeFromMoment{};
-  EXPECT_FALSE(no_steady_state(problem));
-}
-
 }  // namespace
 }  // namespace drumlin::drum_test

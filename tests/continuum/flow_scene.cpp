@@ -150,24 +150,6 @@ TEST(FlowScene, RefusesWhatMeansNothingInItsGeometry) {
       "outer_radius_mm");
 }
 
-TEST(FlowScene, FillsInWhatADrumHasByDefault) {
-  const FlowScene scene = parse_flow_scene(smallest, "test");
-  EXPECT_EQ(scene.boundary.value().corner_taper, 4);
-  EXPECT_EQ(scene.output.slice_width.value(), 20);
-  EXPECT_FALSE(std::get<FlowDrum>(scene.geometry).slope_deg);
-}
-
-TEST(FlowScene, ListsEveryKeyOnceWithASentence) {
-  std::set<std::string> paths;
-  for (const KeyRow& row : flow_scene_keys()) {
-    EXPECT_FALSE(row.sentence.empty()) << row.path;
-    EXPECT_TRUE(paths.insert(row.path).second) << row.path;
-  }
-  for (const char* path :
-       {"drum.diameter_mm", "grains.count", "mesh.levels", "regularisation.pressure", "output.slice_width"})
-    EXPECT_TRUE(paths.contains(path)) << path;
-}
-
 TEST(FlowScene, ShippedScenesAreRead) {
   const FlowScene full = read_flow_scene(drumlin::test::data_folder() / "scenes/drum-6rpm-flow.toml");
   EXPECT_EQ(full.grains.count, 7183);

@@ -41,31 +41,6 @@ TEST(NonlocalFluidity, OfAWaveIsTheWaveDamped) {
   EXPECT_LT(errors[2], 3e-3);
 }
 
-TEST(NonlocalFluidity, LeaksIntoWhatIsAtRestAsACosh) {
-  // g_loc is one in the upper half of a layer and a thousandth below: g - g_loc = +-cosh(distance from the
-  // nearer side/length).
-  const double H = 8, length = 1, low = 1e-3;
-  const Function local = [=](Vec2 x) { return x.z > -H / 2 ? 1 : low; };
-  const Function g = [=](Vec2 x) {
-    const double jump = (1 - low) / 2 / std::cosh(H / 2 / length);
-    return x.z > -H / 2 ? 1 - jump * std::cosh(x.z / length) : low + jump * std::cosh((x.z + H) / length);
-  };
-  // The quotient where the elements see the jump as a slope is no test.
-  const Function exact = [=](Vec2 x) { return std::abs(x.z + H / 2) < 1 ? NAN : std::log(local(x) / g(x)); };
-  std::vector<double> errors;
-  for (const int refinements : {0, 1, 2}) {
-    const GivenFlow flow(BoxDomain{.width = 2, .height = H, .cells_x = 2, .cells_z = 8, .periodic_x = true},
-                         refinements, rest);
-    auto found = factor(flow, length, local);
-    for (double& value : found) value = std::log(value);
-    errors.push_back(flow.error(found, exact));
-  }
-  expect_orders(errors, {1.7, 1.8});
-  // The mesh sees a decay of 1 - h^2/24 in place of 1: with h = 1/4 a hundredth over the four lengths to the
-  // bottom.
-  EXPECT_LT(errors[2], 1e-2);
-}
-
 TEST(NonlocalFluidity, IsLocalForALengthOfNought) {
   const GivenFlow flow(ChordDomain{.radius = 6, .axis_offset = 0.5, .surface_cell = 1, .surface_zone = 2}, 0,
                        rest);

@@ -47,13 +47,6 @@ TEST(MonotoneCubic, OnePointIsAConstant) {
   }
 }
 
-TEST(ConstantLaw, IsTheSameAtEveryRate) {
-  for (const double I : {1e-9, 1e-2, 10.0}) {
-    EXPECT_EQ(ConstantLaw{0.3}.friction(I).mu, 0.3);
-    EXPECT_EQ(ConstantLaw{0.3}.friction(I).slope, 0);
-  }
-}
-
 TEST(TabulatedLaw, OfPointsOnALogarithmIsThatLogarithmInsideAndOutside) {
   const LogLaw log{0.35, 0.013};
   std::vector<double> mu;

@@ -34,10 +34,6 @@ void expect_orders_of_Q2_Q1(const std::array<Errors, 3>& found) {
   }
 }
 
-TEST(ManufacturedFlow, OfANewtonianFluidConvergesWithTheOrdersOfQ2Q1) {
-  expect_orders_of_Q2_Q1(errors_on_three_meshes({NewtonianLaw{1}, {}}));
-}
-
 TEST(ManufacturedFlow, OfTheFrictionLawConvergesWithTheOrdersOfQ2Q1) {
   expect_orders_of_Q2_Q1(errors_on_three_meshes(of_friction_law()));
 }

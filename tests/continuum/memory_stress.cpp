@@ -58,21 +58,6 @@ TEST(MemoryStress, IsThatOfMuWithoutWeight) {
   }
 }
 
-TEST(MemoryStress, SteadySimpleShearIsMuOfIWhereTheTurnIsThatOfTheSpin) {
-  // A = c/(c + i) exp(i chi) n with the spin |D|: chi = atan(1/c) leaves A along n, whatever m is.
-  const double c = 6, a = std::atan(1 / c), shear_rate = 1e-2, p = 2;
-  const Complex n(0, 1), A = c / Complex(c, 1) * std::polar(1.0, a) * n;
-  EXPECT_NEAR(std::abs(A - std::cos(a) * n), 0, 1e-15);
-  const Regularisation none{1e-14, 1e-12};
-  for (const double m : {0.3, 1.0}) {
-    const Remembered held{A.real(), A.imag(), rho_target(m, n, A)};
-    const PlaneTensor D{0, 0, 0.5 * shear_rate};
-    const auto s = memory_response(mu, m, held, none, D, p, 2 / shear_rate * D);
-    EXPECT_NEAR(s.stress.xz, p * mu.friction(shear_rate / std::sqrt(p)).mu, 1e-12);
-    EXPECT_NEAR(s.stress.xx, 0, 1e-12);
-  }
-}
-
 TEST(MemoryStress, AmountIsMuOfIWhateverTheAxes) {
   const Regularisation none{1e-14, 1e-12};
   Points points;

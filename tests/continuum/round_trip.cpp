@@ -78,16 +78,5 @@ TEST(RoundTrip, AFlowSampledWithNoiseAndCalibratedReturnsToItself) {
   EXPECT_LT(std::sqrt(change / size), 0.1);
 }
 
-TEST(RoundTrip, WithoutNoiseTheLawComesBack) {
-  const FlowField flow = converged(problem(truth), one_mesh());
-  // Blocks of one node: nothing is averaged over a gradient.
-  const BlockSelection selection{
-      .I_min = 1e-3, .I_max = 1, .width = 1, .surface_margin = 2, .wall_margin = 2};
-  const RobustFriction fit =
-      fit_friction(frictions(law_points(noisy_maps(flow, 1e-9), selection)), logarithm);
-  EXPECT_NEAR(fit.law[0], truth[0], 2e-3);
-  EXPECT_NEAR(fit.law[1], truth[1], 3e-4);
-}
-
 }  // namespace
 }  // namespace drumlin

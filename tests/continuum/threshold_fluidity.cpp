@@ -59,49 +59,6 @@ void expect_order(const std::vector<double>& errors, double order) {
         << errors[mesh - 1] << " to " << errors[mesh];
 }
 
-TEST(ThresholdFluidity, LeaksBetweenPlatesAsACosh) {
-  // The shear rate is one in the upper half of a layer and a thousandth below, mu_s = 0.3: A^2 lap g = mu_s g
-  // - 2|D|, over the length A/sqrt(mu_s), and no flux through the plates.
-  const double H = 8, low = 1e-3, mu_s = 0.3, length = 1.25;
-  const auto g = [=](double z) {
-    const double jump = (1 - low) / 2 / std::cosh(H / 2 / length);
-    return (z > -H / 2 ? 1 - jump * std::cosh(z / length) : low + jump * std::cosh((z + H) / length)) / mu_s;
-  };
-  FlowProblem problem = strip(H, 8, ConstantLaw{mu_s}, constant_traction(0, -1));
-  problem.regularisation.shear_rate = 1e-9;
-  problem.threshold_fluidity = ThresholdFluidity{length * std::sqrt(mu_s)};
-  std::vector<double> errors;
-  fem::FieldVector none;
-  for (const int refinements : {0, 1, 2}) {
-    fem::Discretisation d(problem);
-    none = d.field();
-    for (int i = 0; i < refinements; ++i) d.refine(problem, none);
-    fem::State state;
-    state.solution = fem::velocity_field(d, [=](Vec2 x) {
-      return Vec2{x.z > -H / 2 ? low * H / 2 + (x.z + H / 2) : low * (x.z + H), 0};
-    });
-    fem::SettledFluidity fluidity(problem, d);
-    ASSERT_TRUE(fluidity.settle({problem.law, problem.regularisation, std::nullopt}, 1e-10, state));
-    double sum = 0, largest = 0;
-    dealii::FEValues<2> fe(d.mapping, d.elements, d.quadrature, dealii::update_quadrature_points);
-    std::vector<double> z;
-    for (const auto& cell : d.unknowns.active_cell_iterators()) {
-      if (!cell->is_locally_owned()) continue;
-      fe.reinit(cell);
-      for (const unsigned int q : fe.quadrature_point_indices()) z.push_back(fe.quadrature_point(q)[1]);
-    }
-    fem::for_each_point(d, state.solution, [&](const fem::PointValues& at, std::size_t point) {
-      const double off = at.ln_fluidity - std::log(g(z[point]));
-      sum += off * off;
-      largest = std::max(largest, std::abs(off));
-    });
-    errors.push_back(std::sqrt(d.sum(sum) / d.sum(static_cast<double>(z.size()))));
-    EXPECT_LT(largest, 0.5);
-  }
-  expect_order(errors, 1.7);
-  EXPECT_LT(errors[2], 1e-2);
-}
-
 TEST(ThresholdFluidity, DecaysFromAShearedLayerAtConstantMuBelowTheThreshold) {
   // mu = mu_s - A^2/l^2 (1 - 2/cosh^2(y/l)) at the depth y: a sheared layer at the top, below it mu_s -
   // A^2/l^2. There g is 1/cosh(y/l), which falls by e over l = A/sqrt(mu_s - mu) = 3.16.

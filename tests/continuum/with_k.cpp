@@ -35,42 +35,6 @@ TEST(PlaneShearWithK, CarriesExactlyKAndTheSameRate) {
   }
 }
 
-TEST(InclineWithK, MovesAsWithoutAndIsPressedSideways) {
-  const double theta = 18.5 * degree, nu = 0.82;
-  FlowProblem problem = strip(20, 10, paper, constant_traction(0, 0));
-  problem.density = nu;
-  problem.slope = FixedSlope{theta};
-  problem.regularisation = {.shear_rate = 1e-5, .pressure = 1e-2};
-  // I = 0.07 and with it k = 1.06, everywhere.
-  problem.turned = some_k();
-  FlowSolverOptions options;
-  options.levels = 2;
-  const FlowField field = converged(problem, options);
-  const double exact = bagnold_speed(paper, nu, theta, 20, 20), I = inertial_number(paper, std::tan(theta));
-  EXPECT_NEAR(state_at(field, {0, -1e-9}).velocity.x, exact, 5e-3 * exact);  // as without k
-  const PointState middle = state_at(field, {0, -10});
-  EXPECT_NEAR(middle.sigma_xz / middle.sigma_zz, std::tan(theta), 1e-3);
-  EXPECT_NEAR(middle.sigma_xx / middle.sigma_zz, some_k().k.at_ln(std::log(I)).value, 1e-3);
-  EXPECT_NEAR(middle.sigma_zz, nu * std::cos(theta) * 10, 1e-3 * 10);
-}
-
-TEST(FlowWithK, OfKOneIsTheFlowWithout) {
-  FlowProblem problem = strip(10, 4, paper, constant_traction(0.29 * 4, -4));
-  problem.density = 0.1;
-  problem.slope = FixedSlope{0.1};
-  problem.regularisation = {.shear_rate = 1e-4, .pressure = 1e-2};
-  FlowSolverOptions options = one_mesh();
-  options.tolerance = 1e-10;
-  const FlowField without = converged(problem, options);
-  problem.turned = TurnedStress{.k = StressRatioLaw({1}, {1})};
-  const FlowField with = converged(problem, options);
-  for (const double z : {-9.0, -4.0, -1.0}) {
-    const PointState a = state_at(without, {0, z}), b = state_at(with, {0, z});
-    EXPECT_NEAR(b.velocity.x / a.velocity.x, 1, 1e-7);
-    EXPECT_NEAR(b.sigma_xx, a.sigma_xx, 1e-7);
-  }
-}
-
 const DrumGeometry drum = small_drum();
 
 FlowProblem small_drum_with_k() {

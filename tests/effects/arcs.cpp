@@ -125,24 +125,6 @@ TEST(Arc, IsABowlInWhichADiscSwingsAsAPendulum) {
   }
 }
 
-TEST(Arc, IsLeftByASlidingDiscWhereTheSphereIsLeft) {
-  // From rest near the top of a smooth cap: off where cos = 2/3 of the start's.
-  const double R = 10.5, start = 0.1;
-  Scene scene = scene_of({{R * std::sin(start), R * std::cos(start)}});
-  scene.walls = {{"cap", ArcShape{{0, 0}, 10, 0, 180}}};
-  scene.effects.gravity = Gravity{};
-  add_stage(scene, 15, 1e-3);
-  Simulation simulation(scene);
-  double off = 0;
-  while (off == 0 && !simulation.finished()) {
-    (void)simulation.step();
-    const Bodies& b = simulation.state().bodies;
-    if (std::hypot(b.x[0], b.z[0]) > R + 1e-5) off = b.z[0] / R;
-  }
-  // The gap then grows as 0.094 t^3: 1e-5 takes 0.047, in which the disc falls by 0.009 R.
-  EXPECT_NEAR(off, 2.0 / 3 * std::cos(start) - 0.009, 0.003);
-}
-
 TEST(Arc, IsLeftAtItsEndWithoutAJolt) {
   // A cap that ends 30 degrees from its top: the disc flies on with the velocity that it has there.
   const double R = 10.5, start = 0.1, end = pi / 6;
@@ -165,18 +147,6 @@ TEST(Arc, IsLeftAtItsEndWithoutAJolt) {
     if (b.z[0] < 0) break;
   }
   EXPECT_NEAR(turned, end, 2e-3);
-}
-
-TEST(Arc, CarriesADiscWhereItMoves) {
-  // At the bottom, at the joint: with the exact place of the bowl, up and down below gravity.
-  const double rate = 2, A = 0.9 / (rate * rate);
-  Scene scene = bowl(0, false, 2 * 2 * pi / rate);
-  scene.stages[0].motions = {{"bowl", Oscillation{{0, A}, rate / (2 * pi) / time_s, 0}}};
-  Simulation simulation(scene);
-  while (!simulation.finished()) {
-    (void)simulation.step();
-    ASSERT_NEAR(simulation.state().bodies.z[0], -9.5 + A * std::sin(rate * simulation.state().time()), 1e-8);
-  }
 }
 
 TEST(Arc, ThatTurnsMovesADiscByFriction) {

@@ -264,31 +264,6 @@ TEST(Cell, AxisUnderPressureFallsWithItsInertia) {
   EXPECT_EQ(simulation.state().cell->rate_x, 0);
 }
 
-TEST(Cell, IsotropicCompressionReachesItsPressure) {
-  Scene scene;
-  scene.grains.density_kg_m3 = 2700;
-  scene.grains.source = GeneratedGrains{100, 0.8, 1.2, RectangleRegion{{0, 0}, {13, 13}}};
-  set_cell(scene, 13, 13);
-  scene.effects.friction = Friction{0.2, 0.2};
-  scene.effects.spin = Spin{};
-  add_stage(scene, 40, 0.02);
-  scene.stages[0].snapshots = 1;
-  const CellAxis pressed{1 * pressure_unit, {}};
-  scene.stages[0].cell = StageCell{pressed, pressed, {}, 1};
-  scene.solver.max_sweeps = 2000;
-  scene.solver.tolerance = 1e-4;
-  EndedSimulation simulation(scene);
-  const Stress stress = stress_of(simulation.take_snapshot());
-  EXPECT_NEAR(stress.xx, 1, 0.02);
-  EXPECT_NEAR(stress.zz, 1, 0.02);
-  const auto& cell = *simulation.state().cell;
-  double area = 0;
-  for (const double r : simulation.state().bodies.radius) area += std::numbers::pi * r * r;
-  const double nu = area / (cell.length_x * cell.length_z);
-  EXPECT_GT(nu, 0.76);  // random packings of discs: 0.77 to 0.84
-  EXPECT_LT(nu, 0.87);
-}
-
 /// Steps of 100 discs that miss a tolerance while a cell presses them, or while they fall on a floor.
 int missed_steps(const std::string& solver, double mu, bool pressed) {
   Scene scene;

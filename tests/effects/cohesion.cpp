@@ -29,12 +29,6 @@ TEST(Cohesion, HoldsADiscBelowACeilingIfItExceedsTheWeight) {
   EXPECT_NEAR(snapshot.contacts[0].impulse_n / snapshot.time_step, -weight, 1e-9);
 }
 
-TEST(Cohesion, LetsADiscFallThatIsHeavier) {
-  // Out of the range of 1e-3 d the fall is free: nearly g t^2 / 2 = 2 after t = 2.
-  const Bodies end = bodies_at_end(below_a_ceiling(0.5));
-  EXPECT_LT(end.z[0], -0.5 - 1.8);
-}
-
 TEST(Cohesion, OfAStageHoldsADiscUntilTheNextStageTakesItAway) {
   Scene scene = below_a_ceiling(1.01);
   scene.stages[0].effects.cohesion = {0, 0};

@@ -39,19 +39,6 @@ const Case cases[] = {
        s.effects.friction->pairs = {{{"glass", "steel"}, 0.1}};
        s.effects.restitution->pairs = {{{"glass", "glass"}, 0.8}};
      }},
-    {"DrivenWall",
-     [](Scene& s) {
-       s.walls.push_back({"lid", SegmentShape{{-15, 15}, {15, 15}}});
-       s.stages[0].motions.push_back({"lid", ForceControl{{0.2, -1}, 20, 0.05, {}}});
-     }},
-    {"RoughWall",
-     [](Scene& s) {
-       s.walls[0].rough = Roughness{2, 3};
-     }},
-    {"Oscillation",
-     [](Scene& s) {
-       s.stages[0].motions = {{"drum", Oscillation{{2, 3}, 8, 20}}};
-     }},
     {"Rocking",
      [](Scene& s) {
        s.stages[0].motions = {{"drum", Rocking{20, 4, 10, {0, 0}}}};
@@ -106,16 +93,11 @@ const Case cases[] = {
        s.output.walls_every_s = 0.05;
        s.grains.thermal_speed_mm_s = 100;
      }},
-    {"ShearedCell",
-     [](Scene& s) {
-       put_into_cell(s);
-       s.stages[0].cell = StageCell{CellAxis{{}, -0.5}, {}, 5, 1};
-       s.stages[0].snapshots = 3;
-     }},
     {"PressedCell",
      [](Scene& s) {
        put_into_cell(s);
-       s.stages[0].cell = StageCell{{}, CellAxis{200, {}}, 5, 1};
+       s.stages[0].cell = StageCell{CellAxis{{}, -0.5}, CellAxis{200, {}}, 5, 1};
+       s.stages[0].snapshots = 3;
      }},
     {"TwoMotionsOfOneWall",
      [](Scene& s) {

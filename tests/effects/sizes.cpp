@@ -102,15 +102,6 @@ TEST(Sizes, OfTwoAreDealtAndLieAnywhere) {
   }
 }
 
-TEST(Sizes, AFlatPowerLawIsUniform) {
-  GeneratedGrains flat = one_to_fifty(1, PowerLawSizes{0}), uniform = flat;
-  uniform.sizes.reset();
-  EXPECT_NEAR(mean_power_mm(flat, 1), mean_power_mm(uniform, 1), 1e-12);
-  EXPECT_NEAR(mean_power_mm(flat, 2), mean_power_mm(uniform, 2), 1e-9);
-  RandomStream a(1, "x"), b(1, "x");
-  for (int k = 0; k < 100; ++k) EXPECT_NEAR(drawn_diameter_mm(flat, a), drawn_diameter_mm(uniform, b), 1e-12);
-}
-
 Scene box(const GeneratedGrains& grains) { return open_box(grains, 400, 4000); }
 
 TEST(Sizes, PlacedGrainsLieInTheRegionAndNotInEachOther) {
@@ -220,25 +211,6 @@ TEST(WallCrossing, OfAContainerIsUndoneUnlessTheDiscFlewOut) {
   EXPECT_EQ(x_after(4.8, 4.95), 4.95);
   EXPECT_EQ(x_after(4.1, 5.2), 5.2);  // further than the largest radius
   EXPECT_EQ(x_after(5.1, 5.2), 5.2);  // was outside before
-}
-
-TEST(Sizes, NoSmallGrainIsPressedThroughAWallByLargeOnes) {
-  // Falls at up to 5 m/s, eight radii of the smallest per step, with a solver that is given five sweeps.
-  Scene scene = box(one_to_fifty(800, PowerLawSizes{2.5}));
-  scene.solver.max_sweeps = 5;
-  scene.solver.check_every = 5;
-  scene.stages[0].duration_s = 0.5;
-  const double unit = 1e-3 / scales_of(scene).length_m;
-  Simulation simulation(scene);
-  while (!simulation.finished()) {
-    (void)simulation.step();
-    const Bodies& b = simulation.state().bodies;
-    for (std::size_t k = 0; k < b.count(); ++k) {
-      ASSERT_GT(b.x[k], 0);
-      ASSERT_LT(b.x[k], 400 * unit);
-      ASSERT_GT(b.z[k], 0);
-    }
-  }
 }
 
 TEST(Sizes, AreAbsentUnlessNamed) {

@@ -79,21 +79,6 @@ TEST(StageGravity, TurnsAndGrowsAtEvenRatesAndStaysAsItIs) {
   EXPECT_NEAR(simulation.take_snapshot().gravity_x, 3, 1e-12);
 }
 
-TEST(StageGravity, TiltedFloorHoldsADiscUpToTheAngleOfFriction) {
-  const double mu = 0.5, critical = std::atan(mu) * 180 / std::numbers::pi;
-  Scene scene = sliding_disc(mu);
-  scene.grains.source = std::get<ListedGrains>(scene_of({{0, 0.5}}).grains.source);
-  add_stage(scene, 40, 0.05);  // a degree per unit of time
-  scene.stages[0].gravity = StageGravity{{}, -50, true};
-  Simulation simulation(scene);
-  double slid = 0;
-  while (!simulation.finished()) {
-    (void)simulation.step();
-    if (slid == 0 && simulation.state().bodies.v_x[0] > 1e-6) slid = simulation.state().time();
-  }
-  EXPECT_NEAR(slid, critical, 0.1);
-}
-
 TEST(StageCoefficients, HoldInTheirStageAlone) {
   Scene scene = sliding_disc(0.4);
   add_stage(scene, 1, 0.01);

@@ -57,19 +57,6 @@ TEST(Rocking, ReachesItsAmplitudeAndComesBackExactly) {
   EXPECT_NEAR(end_at(1000).z, 0, 1e-10);
 }
 
-TEST(RoughWall, ADiscRestsBetweenTwoGluedOnes) {
-  // Glued discs of diameter 1 at distance 1.2: the centre of a disc of diameter 1 lies at sqrt(1 - 0.6^2) =
-  // 0.8.
-  Scene scene = scene_of({{0.02, 0.9}});
-  scene.walls = {{"floor", SegmentShape{{-6, 0}, {6, 0}}}};
-  scene.walls[0].rough = Roughness{1, 1.2};
-  scene.effects.gravity = Gravity{};
-  add_stage(scene, 20, 1e-2);
-  const Bodies end = bodies_at_end(scene);
-  EXPECT_NEAR(end.x[0], 0, 1e-3);
-  EXPECT_NEAR(end.z[0], 0.8, 1e-3);
-}
-
 TEST(RoughWall, ANumberOfDiscsFitsWholeAroundAContainerAndADisc) {
   // 2 pi 30 / 3 = 62.8: 63 of them; 10 pi / 3.1 = 10.1: 11, their centres on the rim.
   Scene scene = turning_drum();

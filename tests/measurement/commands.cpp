@@ -151,21 +151,6 @@ TEST(MeasureCommand, RefusesSlicesInOnePlaceOrNowhere) {
   }
 }
 
-TEST(MeasureCommand, KeepsWhatIsThereUnlessToldOtherwise) {
-  const TemporaryFolder folder;
-  const fs::path run = run_folder(folder, "finished", {small_columns()});
-  EXPECT_EQ(measure(options_for(run)), 0);
-  const fs::path result = run / "measured" / "measured.json";
-  const std::string before = file_text(result);
-  EXPECT_THROW(measure(options_for(run)), InputError);
-  EXPECT_EQ(measure(options_for(run, ExistingOutput::resume)), 0);
-  EXPECT_EQ(file_text(result), before);
-  fs::remove(result);  // as if it had been killed before the end
-  EXPECT_EQ(measure(options_for(run, ExistingOutput::resume)), 0);
-  EXPECT_TRUE(fs::exists(result));
-  EXPECT_EQ(measure(options_for(run, ExistingOutput::overwrite)), 0);
-}
-
 // That a script which fails is named and costs the others nothing: PendingFigures in tests/files.
 TEST(MeasureCommand, FiguresThatAreMissingAreDrawnAgainAndCostNoNumber) {
   const TemporaryFolder folder;

@@ -75,26 +75,6 @@ TYPED_TEST(BlockForm, HasTheSameVelocitiesAndTheSameResidual) {
   }
 }
 
-TYPED_TEST(BlockForm, IsSymmetricWithDiagonalsThatRepeatTheRows) {
-  std::vector<double> r;
-  const BlockProblem blocks = block_problem(random_problem<TypeParam>(9, r));
-  const auto& W = blocks.W;
-  for (int a = 0; a < blocks.contacts(); ++a)
-    for (int k = W.row_start[a]; k < W.row_start[a + 1]; ++k) {
-      const int b = W.column[k];
-      if (b == a) {
-        EXPECT_EQ(W.block[k], W.diagonal[a]);
-      }
-      bool found = false;
-      for (int m = W.row_start[b]; m < W.row_start[b + 1]; ++m)
-        if (W.column[m] == a) {
-          found = true;
-          EXPECT_LE((W.block[m] - W.block[k].transpose()).cwiseAbs().maxCoeff(), 1e-14);
-        }
-      EXPECT_TRUE(found) << a << ' ' << b;
-    }
-}
-
 TEST(BlockProblem, OfAStepIsNoneWhereAFileCannotHoldIt) {
   std::vector<double> r;
   auto problem = random_problem<CoulombProblem>(2, r);

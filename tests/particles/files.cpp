@@ -59,13 +59,6 @@ TEST(SnapshotFile, RoundTripKeepsEveryNumber) {
   EXPECT_EQ(t.contacts[0].impulse_t, -0.5);
 }
 
-TEST(SnapshotFile, SameStateGivesSameBytes) {
-  const TemporaryFolder folder;
-  write_snapshot(folder.path() / "a.h5", some_snapshot());
-  write_snapshot(folder.path() / "b.h5", some_snapshot());
-  EXPECT_EQ(bytes_of(folder.path() / "a.h5"), bytes_of(folder.path() / "b.h5"));
-}
-
 TEST(SnapshotFile, EveryBitFlipAndEveryCutIsRefused) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "s.h5", damaged = folder.path() / "d.h5";
@@ -146,18 +139,7 @@ TEST(ContactProblemFile, AllThreeStoragesGiveTheSameProblem) {
   }
 }
 
-TEST(ContactProblemFile, WrittenProblemReadsBack) {
-  const TemporaryFolder folder;
-  write_fclib(folder.path() / "p.h5", {}, -1);
-  const BlockProblem a = read_contact_problem(folder.path() / "p.h5");
-  write_contact_problem(folder.path() / "q.h5", a, {}, "test");
-  const BlockProblem b = read_contact_problem(folder.path() / "q.h5");
-  EXPECT_EQ(a.W.column, b.W.column);
-  EXPECT_EQ(a.q, b.q);
-  EXPECT_EQ(a.mu, b.mu);
-}
-
-TEST(ContactProblemFile, SaysTheTimeStepAndWhereTheContactsAre) {
+TEST(ContactProblemFile, WrittenProblemReadsBackAndSaysTheTimeStepAndWhereTheContactsAre) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "q.h5";
   write_fclib(file, {}, -1);
@@ -165,7 +147,11 @@ TEST(ContactProblemFile, SaysTheTimeStepAndWhereTheContactsAre) {
   BlockProblem problem = read_contact_problem(file);
   problem.time_step = 0.05;
   write_contact_problem(file, problem, {{1, 2, 3}, {4, 5, 6}, {1, 0, 1}, {0, 1, 0}}, "test");
-  EXPECT_EQ(read_contact_problem_file(file).time_step, 0.05);
+  const ContactProblemFile again = read_contact_problem_file(file);
+  EXPECT_EQ(again.time_step, 0.05);
+  EXPECT_EQ(again.problem.W.column, problem.W.column);
+  EXPECT_EQ(again.problem.q, problem.q);
+  EXPECT_EQ(again.problem.mu, problem.mu);
   EXPECT_EQ(H5Reader(file).doubles("drumlin/contacts/z"), (std::vector<double>{4, 5, 6}));
   problem.time_step = 0;
   write_contact_problem(file, problem, {}, "test");

@@ -12,19 +12,6 @@ using namespace particles;
 using namespace test;
 namespace {
 
-TEST(Shot, DiscAtAHundredTimesTheGrainSpeedDoesNotPassAThinWall) {
-  Scene scene = scene_of({{0, 30, 1, 10, -100}});
-  scene.walls = {floor_wall()};
-  scene.effects.restitution = Restitution{0.5, 0.5};
-  add_stage(scene, 1, 0.0545);
-  Simulation simulation(scene);
-  while (!simulation.finished()) {
-    (void)simulation.step();
-    ASSERT_GT(simulation.state().bodies.z[0], 0.5 - 1e-6);
-  }
-  EXPECT_NEAR(simulation.state().bodies.v_z[0], 50, 1e-6);
-}
-
 TEST(RotatingContainer, GrainOnTheWallTurnsWithItAndDoesNotDrift) {
   const double turns = 10, spin = 0.5;  // centripetal acceleration presses it to the wall
   Scene scene = scene_of({{0, -9.5, 1, -9.5 * spin, 0, spin}});

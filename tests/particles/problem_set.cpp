@@ -31,8 +31,6 @@ class ProblemSet : public ::testing::TestWithParam<std::string> {
   const BlockProblem problem = read_contact_problem(file);
 };
 
-TEST_P(ProblemSet, IsSmall) { EXPECT_LT(fs::file_size(file), 1'000'000u); }
-
 TEST_P(ProblemSet, EverySolverEndsInTheConesBetterThanItBegan) {
   const std::vector<double> nothing(problem.q.size(), 0.0);
   const double before = residual_at(problem, nothing).rms;

@@ -106,16 +106,6 @@ CoulombSpinProblem in_order_of(const CoulombSpinProblem& problem, const SweepPla
   return sorted;
 }
 
-std::vector<double> solved(const std::string& solver, ThreadTeam* team, int sweeps) {
-  static const auto problem = [] {  // in the order of its plan, as the steps of a run come
-    const auto unsorted = lattice(150, 100, 2);
-    std::vector<std::int32_t> order;
-    const SweepPlan plan = sweep_plan(150 * 100, unsorted.W.i, unsorted.W.j, order);
-    return in_order_of(unsorted, plan, order);
-  }();
-  return solved_by(solver, problem, 0, sweeps, team).impulses;
-}
-
 /// Single precision reaches 1e-4: where sweeps end with it, a tighter tolerance is not met.
 TEST(Strips, SinglePrecisionThatRunsOutOfSweepsHasNotConverged) {
   auto unsorted = lattice(12, 8, 3);
@@ -130,42 +120,6 @@ TEST(Strips, SinglePrecisionThatRunsOutOfSweepsHasNotConverged) {
     missed += report.residual.rms > 1e-9 && report.residual.rms < 1e-4;
   }
   EXPECT_GT(missed, 0);  // the case was met
-}
-
-TEST(Strips, AnyNumberOfThreadsGivesTheSameBytes) {
-  for (const char* solver : {"nlgs", "accelerated", "accelerated-double", "cpg"}) {
-    const auto alone = solved(solver, nullptr, 50);
-    for (const int threads : {2, 3, 4, 8, 16}) {  // more than there are processors, too
-      ThreadTeam team(threads);
-      EXPECT_EQ(alone, solved(solver, &team, 50)) << solver << ", " << threads;
-    }
-  }
-}
-
-TEST(Strips, AnyInstructionSetGivesTheSameBytes) {
-  for (const char* solver : {"nlgs", "accelerated", "accelerated-double"}) {
-    const auto best = solved(solver, nullptr, 30);
-    on_each_instruction_set([&](const char* target) {
-      EXPECT_EQ(best, solved(solver, nullptr, 30)) << solver << " on " << target;
-    });
-  }
-}
-
-template <class Problem>
-void expect_as_in_turn(const Problem& problem) {
-  const auto in_strips = solved_by("nlgs", problem, 0, 20).impulses;
-  const auto scalar = solved_by("nlgs-scalar", problem, 0, 20).impulses;
-  for (std::size_t k = 0; k < scalar.size(); ++k)
-    ASSERT_NEAR(in_strips[k], scalar[k], 1e-12);  // rounding of 20 sweeps
-}
-
-TEST(Strips, SweepsAgreeWithThoseOfOneContactAfterTheOther) {
-  // In the order of the plan both do the same sums; the vectorised form adds n.(v_i - v_j) in another order.
-  auto problem = lattice(40, 30, 3);
-  std::vector<std::int32_t> order;
-  const SweepPlan plan = sweep_plan(40 * 30, problem.W.i, problem.W.j, order);
-  const CoulombSpinProblem sorted = in_order_of(problem, plan, order);
-  expect_as_in_turn(sorted);
 }
 
 /// The lattice with rolling resistance, its walls moved by forces, in the order of its plan.
@@ -191,11 +145,29 @@ RollingProblem rolling_lattice(int columns, int rows, bool driven) {
   return problem;
 }
 
-TEST(Strips, RollingAndDrivenWallsGiveTheSameBytesOnAnyThreadsAndInstructionSet) {
-  const auto problem = rolling_lattice(100, 60, true);
-  for (const char* solver : {"nlgs", "accelerated"}) {
+template <class Problem>
+void expect_as_in_turn(const Problem& problem) {
+  const auto in_strips = solved_by("nlgs", problem, 0, 20).impulses;
+  const auto scalar = solved_by("nlgs-scalar", problem, 0, 20).impulses;
+  for (std::size_t k = 0; k < scalar.size(); ++k)
+    ASSERT_NEAR(in_strips[k], scalar[k], 1e-12);  // rounding of 20 sweeps
+}
+
+TEST(Strips, SweepsAgreeWithThoseOfOneContactAfterTheOther) {
+  // In the order of the plan both do the same sums; the vectorised form adds n.(v_i - v_j) in another order.
+  auto problem = lattice(40, 30, 3);
+  std::vector<std::int32_t> order;
+  const SweepPlan plan = sweep_plan(40 * 30, problem.W.i, problem.W.j, order);
+  expect_as_in_turn(in_order_of(problem, plan, order));
+  expect_as_in_turn(rolling_lattice(40, 30, false));
+}
+
+template <class Problem>
+void expect_same_bytes(const Problem& problem, std::initializer_list<const char*> solvers,
+                       std::initializer_list<int> teams) {
+  for (const char* solver : solvers) {
     const auto alone = solved_by(solver, problem, 0, 30).impulses;
-    for (const int threads : {2, 3, 8}) {
+    for (const int threads : teams) {
       ThreadTeam team(threads);
       EXPECT_EQ(alone, solved_by(solver, problem, 0, 30, &team).impulses) << solver << ", " << threads;
     }
@@ -205,9 +177,13 @@ TEST(Strips, RollingAndDrivenWallsGiveTheSameBytesOnAnyThreadsAndInstructionSet)
   }
 }
 
-TEST(Strips, RollingSweepsAgreeWithThoseOfOneContactAfterTheOther) {
-  const auto problem = rolling_lattice(40, 30, false);
-  expect_as_in_turn(problem);
+TEST(Strips, AnyThreadsAndInstructionSetGiveTheSameBytes) {
+  const auto unsorted = lattice(150, 100, 2);
+  std::vector<std::int32_t> order;
+  const SweepPlan plan = sweep_plan(150 * 100, unsorted.W.i, unsorted.W.j, order);
+  expect_same_bytes(in_order_of(unsorted, plan, order), {"nlgs", "accelerated", "accelerated-double", "cpg"},
+                    {2, 3, 4, 8, 16});  // more than there are processors, too
+  expect_same_bytes(rolling_lattice(100, 60, true), {"nlgs", "accelerated"}, {2, 3, 8});
 }
 
 TEST(Strips, DrivenWallsAndRollingConvergeAsOneContactAfterTheOtherDoes) {

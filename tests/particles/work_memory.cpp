@@ -79,15 +79,6 @@ TEST(WorkMemory, LongerArraysKeepWhatTheyHold) {
   }
 }
 
-TEST(WorkMemory, VectorsGiveBackWhatTheyHold) {
-  std::vector<int> values(100), again(100);
-  free_memory_of(values);
-  EXPECT_EQ(values.capacity(), 0);
-  resize_closely(again, 1600);
-  EXPECT_EQ(again.size(), 1600);
-  EXPECT_LE(again.capacity(), 1700);
-}
-
 TEST(WorkMemory, NothingIsTakenOutsideOfAFrame) {
   WorkMemory memory;
   EXPECT_THROW((void)memory.take(8), std::logic_error);

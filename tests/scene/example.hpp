@@ -58,19 +58,4 @@ inline std::string only_scene_problem(const std::string& text,
   return problems.empty() ? "" : problems.front().text();
 }
 
-/// The only problem names this key and says this.
-inline void expect_problem(const std::string& text, const std::vector<std::string>& overrides,
-                           const std::string& key, const std::string& what,
-                           const Place& at = Place::current()) {
-  const std::string problem = only_scene_problem(text, overrides);
-  expect_has(problem, key + ": ", at);
-  expect_has(problem, what, at);
-}
-
-/// Of the example.
-inline void expect_problem(const std::vector<std::string>& overrides, const std::string& key,
-                           const std::string& what, const Place& at = Place::current()) {
-  expect_problem(example_scene, overrides, key, what, at);
-}
-
 }  // namespace drumlin::testing

@@ -42,23 +42,6 @@ std::vector<HardCheck> drop_peaks() {
   return checks;
 }
 
-std::vector<HardCheck> drop_to_rest() {
-  const double e = 0.5, height = 2, h = 2e-4;
-  const double rest = std::sqrt(2 * height) * (1 + e) / (1 - e);
-  Simulation simulation = drop(height, e, rest + 2, h).start();
-  double last_moving = 0, jitter = 0;
-  run_watched(simulation, [&](const Simulation& s) {
-    const double speed = std::abs(s.state().bodies.v_z[0]);
-    if (speed > 2 * h) last_moving = s.state().time();
-    if (s.state().time() > rest * 1.01) jitter = larger(jitter, speed);
-  });
-  return {
-      equals("time of rest", rest, last_moving, 0.01 * rest,
-             "impacts below 2 g h are taken as rest, each impact is late by up to a step"),
-      at_most("speed afterwards", 1e-9, jitter, "the residual asked of the solver"),
-      equals("height at the end", 0.5, simulation.state().bodies.z[0], 1e-6, "overlap is projected away")};
-}
-
 Trial row(const std::vector<TrialDisc>& discs, double e, double duration, double h) {
   Trial trial;
   trial.discs = discs;
@@ -187,7 +170,6 @@ std::vector<HardCheck> fast_target() {
 std::vector<HardCase> impact_cases() {
   return {
       {"drop-peaks", "a dropped disc peaks at e^(2n) of its height", true, drop_peaks},
-      {"drop-to-rest", "it rests at t = sqrt(2 H/g) (1+e)/(1-e), then no jitter", true, drop_to_rest},
       {"cradle-of-five", "with gaps the last of five leaves with ((1+e)/2)^4; touching ones by Newton's law",
        true, cradle_of_five},
       {"oblique", "an impact slips iff |v_t| > 3 mu (1+e) |v_n|; else v_t' = 2/3 v_t", true, oblique},
