@@ -1,10 +1,9 @@
 // What the contact solvers cost, on steps of a flowing drum that every solver is given alike.
 //
-// usage: benchmark_engine SCENE.toml RESULT.json CACHE_FOLDER [--quick]
+// usage: benchmark_engine SCENE.toml RESULT.json CACHE_FOLDER
 //
 // All that is compared is measured in one run, turn by turn, after a warm-up; a step counts with the least
-// time of its repetitions, a solver with the median over the steps. --quick takes few steps and small drums:
-// it shows that all works.
+// time of its repetitions, a solver with the median over the steps.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -62,12 +61,34 @@ struct Contestant {
   std::vector<StepReport> best;
 };
 
+using Contestants = std::vector<Contestant>;
+
+/// The engine's own solver with `many_sweeps`, on one thread and on two.
+Contestants on_threads(const Flow& flow) {
+  Contestants contestants;
+  contestants.reserve(2);
+  for (const int threads : {1, 2})
+    contestants.emplace_back(flow, "accelerated", threads, fixed_sweeps(many_sweeps));
+  return contestants;
+}
+
+/// Solvers with few sweeps and with many, on one thread.
+Contestants of_sweeps(const Flow& flow, const std::vector<std::string>& solvers) {
+  Contestants contestants;
+  contestants.reserve(2 * solvers.size());
+  for (const auto& solver : solvers)
+    for (const int sweeps : {few_sweeps, many_sweeps})
+      contestants.emplace_back(flow, solver, 1, fixed_sweeps(sweeps));
+  return contestants;
+}
+
 /// Each contestant on each step, in turn, `repetitions` times after one that is not counted.
-void race(const Flow& flow, std::vector<Contestant>& contestants, int repetitions) {
+Contestants raced(const Flow& flow, Contestants contestants, int repetitions) {
   for (Contestant& contestant : contestants) (void)contestant.replay(flow.steps[0]);
   for (int repetition = 0; repetition < repetitions; ++repetition)
     for (std::size_t step = 0; step < flow.steps.size(); ++step)
       for (Contestant& contestant : contestants) contestant.solve(flow, step, repetition == 0);
+  return contestants;
 }
 
 double ns_per_contact_and_sweep(const Contestant& few, const Contestant& many) {
@@ -88,12 +109,7 @@ double mean_contacts(const Contestant& contestant) {
 
 /// {solver: ns}, one thread.
 Json sweep_costs(const Flow& flow, const std::vector<std::string>& solvers, int repetitions) {
-  std::vector<Contestant> contestants;
-  contestants.reserve(2 * solvers.size());
-  for (const auto& solver : solvers)
-    for (const int sweeps : {few_sweeps, many_sweeps})
-      contestants.emplace_back(flow, solver, 1, fixed_sweeps(sweeps));
-  race(flow, contestants, repetitions);
+  const Contestants contestants = raced(flow, of_sweeps(flow, solvers), repetitions);
   Json result;
   for (std::size_t k = 0; k < solvers.size(); ++k)
     result[solvers[k]] = ns_per_contact_and_sweep(contestants[2 * k], contestants[2 * k + 1]);
@@ -105,10 +121,10 @@ Json times_to_residual(const Flow& flow, double tolerance, int repetitions) {
   rule.tolerance = tolerance;
   rule.max_sweeps = 20000;
   rule.max_seconds = 1;  // per solve; what takes longer counts as missed
-  std::vector<Contestant> contestants;
+  Contestants contestants;
   contestants.reserve(any_solver_names().size());
   for (const auto& solver : any_solver_names()) contestants.emplace_back(flow, solver, 1, rule);
-  race(flow, contestants, repetitions);
+  contestants = raced(flow, std::move(contestants), repetitions);
   const auto plain = std::find_if(contestants.begin(), contestants.end(),
                                   [](const Contestant& c) { return c.solver == "nlgs-scalar"; });
   Json result;
@@ -131,11 +147,7 @@ Json times_to_residual(const Flow& flow, double tolerance, int repetitions) {
 
 /// Time of `many_sweeps` sweeps with packing and one residual, on one thread over that on two.
 Json two_threads(const Flow& flow, int repetitions) {
-  std::vector<Contestant> contestants;
-  contestants.reserve(2);
-  for (const int threads : {1, 2})
-    contestants.emplace_back(flow, "accelerated", threads, fixed_sweeps(many_sweeps));
-  race(flow, contestants, repetitions);
+  const Contestants contestants = raced(flow, on_threads(flow), repetitions);
   std::vector<double> ratios, one, two;
   for (std::size_t step = 0; step < flow.steps.size(); ++step) {
     one.push_back(1e3 * contestants[0].best[step].solve.seconds);
@@ -169,10 +181,7 @@ class BusyLoops {
 
 /// Time of the steps on two threads over that on one, in turn, beside busy loops.
 Json beside_busy_loops(const Flow& flow, int count) {
-  std::vector<Contestant> contestants;
-  contestants.reserve(2);
-  for (const int threads : {1, 2})
-    contestants.emplace_back(flow, "accelerated", threads, fixed_sweeps(many_sweeps));
+  Contestants contestants = on_threads(flow);
   const BusyLoops busy(count);
   std::array<double, 2> seconds{};
   for (const FlowStep& step : flow.steps)
@@ -181,11 +190,7 @@ Json beside_busy_loops(const Flow& flow, int count) {
 }
 
 Json cost_of_size(const Flow& flow, int repetitions) {
-  std::vector<Contestant> contestants;
-  contestants.reserve(2);
-  for (const int sweeps : {few_sweeps, many_sweeps})
-    contestants.emplace_back(flow, "accelerated", 1, fixed_sweeps(sweeps));
-  race(flow, contestants, repetitions);
+  const Contestants contestants = raced(flow, of_sweeps(flow, {"accelerated"}), repetitions);
   const double ns = ns_per_contact_and_sweep(contestants[0], contestants[1]),
                contacts = mean_contacts(contestants[0]);
   std::vector<double> detection;
@@ -200,10 +205,10 @@ Json cost_of_size(const Flow& flow, int repetitions) {
 
 /// Fills `result`; `keep` is called after each part, for the last ones take long.
 template <class Keep>
-void measure(Json& result, const Scene& scene, const std::filesystem::path& cache, bool quick, Keep keep) {
-  const int standard = quick ? 800 : 7183, steps = quick ? 3 : 30, repetitions = quick ? 1 : 2;
+void measure(Json& result, const Scene& scene, const std::filesystem::path& cache, Keep keep) {
+  const int standard = 7183, repetitions = 2;
   result["memory"] = {{"discs", standard}, {"peak_mb", peak_memory_mb(scene, standard, cache)}};
-  const Flow flow = flow_of(scene, standard, steps, cache);
+  const Flow flow = flow_of(scene, standard, 30, cache);
   result["flow"] = {{"discs", standard}, {"steps", flow.steps.size()}, {"repetitions", repetitions}};
   std::vector<std::string> sweeping = any_solver_names();
   std::erase(sweeping, "reference");  // a sweep of it is a factorisation
@@ -212,13 +217,12 @@ void measure(Json& result, const Scene& scene, const std::filesystem::path& cach
   const double tolerance = 1e-2;
   result["to_residual"] = {{"residual", tolerance}, {"solvers", times_to_residual(flow, tolerance, 1)}};
   keep("solves");
-  result["threads"] = Json::array({two_threads(flow, repetitions + 1)});
-  if (!quick) result["threads"].push_back(two_threads(flow_of(scene, 30000, 10, cache), repetitions + 1));
+  result["threads"] = {two_threads(flow, repetitions + 1),
+                       two_threads(flow_of(scene, 30000, 10, cache), repetitions + 1)};
   for (const int loops : {1, 4}) result["beside"].push_back(beside_busy_loops(flow, loops));
   keep("threads");
-  result["sizes"] = Json::array();
-  for (const int discs : quick ? std::vector<int>{400, 800} : std::vector<int>{2000, 7183, 30000, 100000}) {
-    result["sizes"].push_back(cost_of_size(flow_of(scene, discs, quick ? 2 : 6, cache), repetitions));
+  for (const int discs : {2000, 7183, 30000, 100000}) {
+    result["sizes"].push_back(cost_of_size(flow_of(scene, discs, 6, cache), repetitions));
     keep("a size");
   }
 }
@@ -226,20 +230,19 @@ void measure(Json& result, const Scene& scene, const std::filesystem::path& cach
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool quick = argc == 5 && std::string(argv[4]) == "--quick";
-  if (argc != 4 && !quick) {
-    fmt::print(stderr, "usage: benchmark_engine SCENE.toml RESULT.json CACHE_FOLDER [--quick]\n");
+  if (argc != 4) {
+    fmt::print(stderr, "usage: benchmark_engine SCENE.toml RESULT.json CACHE_FOLDER\n");
     return static_cast<int>(ExitCode::wrong_input);
   }
   try {
     Json result{{"format", "drumlin-engine-cost-1"},
-                {"command", fmt::format("benchmark_engine SCENE RESULT CACHE{}", quick ? " --quick" : "")},
-                {"reduced", quick}};
+                {"command", "benchmark_engine SCENE RESULT CACHE"},
+                {"reduced", false}};
     const Scene scene = read_scene(argv[1]);
     result["scene"] = scene.title;
     result["load_before"] = load_average();
     result["provenance"] = apps::to_json(provenance());
-    measure(result, scene, argv[3], quick, [&](const char* what) {
+    measure(result, scene, argv[3], [&](const char* what) {
       result["load_after"] = load_average();
       apps::write_json(argv[2], result);
       fmt::print(stderr, "{} measured\n", what);

@@ -7,32 +7,27 @@ already is kept, so that the largest ones can be added by themselves. Processor 
 idle machine only: the load stands beside them.
 """
 
-import json
 import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-
-from machine import machine  # noqa: E402
+from records import called, content_of, machine, write
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCALARS = ("theta_deg", "H", "lambda")
 
 
 def solved(build, levels, cell, ranks):
-    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1",
-                   "OMPI_MCA_mpi_yield_when_idle": str(int(ranks > (os.cpu_count() or 1)))}  # else a rank that waits gives its processor to others
+    os.environ |= {"OMP_NUM_THREADS": "1", "OMPI_MCA_mpi_yield_when_idle": str(int(ranks > (os.cpu_count() or 1)))}  # else a rank that waits gives its processor to others
     keys = {"mesh.levels": levels, "mesh.surface_cell": cell, "solver.sensitivity": "false", "output.figures": "false"}
     with tempfile.TemporaryDirectory() as name:
         words = ["mpirun", "-n", ranks, build / "drumlin-flow", ROOT / "data/scenes/drum-6rpm-flow.toml", "--rheology", ROOT / "data/rheology/drum-6rpm.toml", "-o", f"{name}/flow"]
         for key, value in keys.items():
             words += ["--set", f"{key}={value}"]
         load = os.getloadavg()[0]
-        subprocess.run([str(word) for word in words], check=True, env=environment, capture_output=True)
-        flow = json.loads(pathlib.Path(f"{name}/flow/flow.json").read_text(encoding="utf-8"))
+        called(*words)
+        flow = content_of(pathlib.Path(f"{name}/flow/flow.json"))
         table = [line.split(",") for line in pathlib.Path(f"{name}/flow/iterations.csv").read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
     last = [row for row in table[1:] if int(row[0]) == levels - 1]
     return {
@@ -53,13 +48,13 @@ def solved(build, levels, cell, ranks):
 def main():
     build, record = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
     cases = sys.argv[3:] or [f"{levels}:{2 / 2 ** (levels - 1):g}:{ranks}" for levels in (2, 3, 4) for ranks in (1, 2)]
-    content = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {"format": "drumlin-flow-ranks-1", "command": "python3 tests/benchmarks/flow_ranks.py build RECORD.json", "cases": {}}
+    content = content_of(record) if record.exists() else {"format": "drumlin-flow-ranks-1", "command": "python3 tests/benchmarks/flow_ranks.py build RECORD.json", "cases": {}}
     for case in cases:
         if case in content["cases"]:
             continue
         levels, cell, ranks = case.split(":")
         content["cases"][case] = found = solved(build, int(levels), float(cell), int(ranks)) | machine()
-        record.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+        write(record, content)
         print(case, found["unknowns"], found["newton_iterations"], found["rank_costs"], f"{found['wall_seconds']:.1f} s", flush=True)
 
 

@@ -9,20 +9,17 @@ its parts and its figures, as the system counts it.
 """
 
 import argparse
-import json
 import os
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "apps/figures"))
 import result_files  # noqa: E402
 from drums import drum, rotation, solved_to, stage  # noqa: E402
-from machine import machine  # noqa: E402
 from million import taken  # noqa: E402
+from records import called, content_of, machine, write  # noqa: E402
 
 CASES = ("7183x10", "7183x24", "7183x200", "100000x10", "100000x24")
 CONTACT = 32  # bytes of one in memory
@@ -59,7 +56,7 @@ def main():
             file, run = folder / f"{case}.toml", folder / case
             if not (run / "run.json").exists():
                 file.write_text(scene(discs, snapshots), encoding="utf-8")
-                subprocess.run([program, "run", file, "-o", run, "--threads", str(given.threads)], check=True, stdout=subprocess.DEVNULL)
+                called(program, "run", file, "-o", run, "--threads", given.threads)
             last = sorted((run / "snapshots").glob("*.h5"))[-1]
             on_disk, held = size_of_snapshot(last)
             found = {"discs": discs, "snapshots": snapshots, "snapshot_file_mb": on_disk, "snapshot_mb": held,
@@ -67,11 +64,10 @@ def main():
             found["in_snapshots"] = found["measure"]["peak_memory_mb"] / held
             print(f"{case}: {found['measure']['peak_memory_mb']:.0f} MB, a snapshot {held:.1f} MB", flush=True)
             cases.append(found)
-            measured = json.loads((run / "measured/measured.json").read_text(encoding="utf-8"))
+            measured = content_of(run / "measured/measured.json")
     whole = {"format": "drumlin-measure-memory-1", "revision": measured["provenance"]["measurement"]["revision"],
              "command": "python3 tests/benchmarks/measure_memory.py BUILD RECORD.json", **machine(), "cases": cases}
-    given.record.parent.mkdir(parents=True, exist_ok=True)
-    given.record.write_text(json.dumps(whole, indent=1) + "\n", encoding="utf-8")
+    write(given.record, whole)
 
 
 if __name__ == "__main__":

@@ -10,21 +10,17 @@ stage and to measure ten snapshots is told: counts depend on no machine, seconds
 """
 
 import argparse
-import csv
-import json
 import math
 import os
 import pathlib
 import re
 import statistics
 import subprocess
-import sys
 import tempfile
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from drums import drum, rotation, solved_to, speed_rpm, stage  # noqa: E402
-from machine import machine  # noqa: E402
+from drums import drum, rotation, solved_to, speed_rpm, stage
+from records import content_of, machine, steps_of, write
 
 SIZES = (7183, 100000, 1000000)
 SETTLE, START, TURN = 0.1, 0.2, 0.1  # seconds, in steps of 1e-3
@@ -86,12 +82,11 @@ def main():
             case = {"discs": discs, "placing": taken([program, "scene", "check", file])}
             shared = ["--ranks", str(given.ranks), "--threads", str(given.ranks)] if given.ranks else ["--threads", str(given.threads)]
             case["run"] = taken([program, "run", file, "-o", where, *shared])
-            run = json.loads((where / "run.json").read_text(encoding="utf-8"))
+            run = content_of(where / "run.json")
             if given.ranks:
                 case["ranks"] = run["ranks"]
                 case["run"]["peak_memory_mb"] = sum(rank["peak_memory_mb"] for rank in run["ranks"])
-            with (where / "log.csv").open(encoding="utf-8") as log:
-                rows = list(csv.DictReader(log))
+            rows = steps_of(where)
             case["stages"] = {stage: told([row for row in rows if row["stage"] == stage]) for stage in ("settle", "start", "turn")}
             case["cost"] = run["cost"]
             sweeps = sum(int(row["sweeps"]) for row in rows)
@@ -102,8 +97,7 @@ def main():
             cases.append(case)
     whole = {"format": "drumlin-million-1", "revision": run["revision"], "command": "python3 tests/benchmarks/million.py BUILD RECORD.json" + (f" --ranks {given.ranks}" if given.ranks else ""),
              **machine(), **({"ranks": given.ranks} if given.ranks else {"threads": given.threads}), "tolerance": 1e-2, "time_step_s": 1e-3, "cases": cases}
-    given.record.parent.mkdir(parents=True, exist_ok=True)
-    given.record.write_text(json.dumps(whole, indent=1) + "\n", encoding="utf-8")
+    write(given.record, whole)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,6 @@ Chromium draws without a graphics card here, which is the slowest that a reader 
 """
 
 import glob
-import json
 import os
 import pathlib
 import subprocess
@@ -15,7 +14,7 @@ import sys
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "chain"))
 
 import browser  # noqa: E402  (it lies there)
-from machine import machine  # noqa: E402
+from records import machine, write  # noqa: E402
 
 FRAMES = 100
 PLAYED = ("(async () => {{ const from = performance.now(); for (let k = 0; k < {0}; k++) {{ goTo(k % run.frames.length); await new Promise(requestAnimationFrame); }}"
@@ -60,11 +59,10 @@ def main():
         page.value("toggleChains()")
         chains = drawn(page)
         version = page.call("Browser.getVersion")["product"]
-    record.write_text(json.dumps({
-        "format": "drumlin-player-cost-1", "command": "tests/benchmarks/player.py DRUMLIN player.html RECORD.json"} | content | {
-            "bytes": file.stat().st_size, "opening_processor_seconds": round(opened, 2), "frame": plain, "frame_with_force_chains": chains,
-            "window": "1280 x 800", "browser": version, "load_before": load,
-            "provenance": {"revision": subprocess.run([drumlin, "--version"], capture_output=True, text=True, check=True).stdout.split()[1]} | machine()}, indent=2) + "\n", encoding="utf-8")
+    revision = subprocess.run([drumlin, "--version"], capture_output=True, text=True, check=True).stdout.split()[1]
+    write(record, {"format": "drumlin-player-cost-1", "command": "tests/benchmarks/player.py DRUMLIN player.html RECORD.json"} | content | {
+        "bytes": file.stat().st_size, "opening_processor_seconds": round(opened, 2), "frame": plain, "frame_with_force_chains": chains,
+        "window": "1280 x 800", "browser": version, "load_before": load, "provenance": {"revision": revision} | machine()})
 
 
 if __name__ == "__main__":

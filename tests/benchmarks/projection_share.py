@@ -5,18 +5,15 @@ RUN: a whole run of data/scenes/drum-6rpm.toml, from the end of which each turn 
 the half-width of their 95 % interval, from the scatter of one-second means. One thread each, one after the other.
 """
 
-import csv
 import json
 import os
 import pathlib
 import statistics
-import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from drums import drum, rotation, solved_to, stage, started_from  # noqa: E402
-from machine import machine  # noqa: E402
+from drums import drum, rotation, solved_to, stage, started_from
+from records import called, content_of, machine, steps_of, write
 
 # Tolerance and share: the scene's; rougher, with the usual share and with larger ones.
 CASES = ((3e-3, 0.2), (5.5e-3, 0.2), (5.5e-3, 0.6), (5.5e-3, 1))
@@ -44,10 +41,9 @@ def main():
         for tolerance, share in CASES:
             file, where = folder / "scene.toml", folder / f"{tolerance:g}-{share:g}"
             file.write_text(scene(run, tolerance, share), encoding="utf-8")
-            subprocess.run([build / "drumlin", "run", file, "-o", where, "--threads", "1"], check=True, capture_output=True)
-            report = json.loads((where / "run.json").read_text(encoding="utf-8"))
-            with (where / "log.csv").open(encoding="utf-8") as log:
-                rows = list(csv.DictReader(log))[LEFT_OUT * STEPS_OF_A_SECOND :]
+            called(build / "drumlin", "run", file, "-o", where, "--threads", 1)
+            report = content_of(where / "run.json")
+            rows = steps_of(where)[LEFT_OUT * STEPS_OF_A_SECOND :]
             case = {"tolerance": tolerance, "projection_share": share, "cpu_seconds": report["cpu_seconds"], "sweeps_mean": report["cost"]["sweeps_mean"],
                     "overlap_max": max(float(row["overlap_max"]) for row in rows)}
             case |= {key: mean_and_interval([float(row[key]) for row in rows]) for key in ("overlap_mean", "kinetic_energy", "contacts")}
@@ -55,7 +51,7 @@ def main():
             cases.append(case)
     content = {"format": "drumlin-projection-share-1", "command": "python3 tests/benchmarks/projection_share.py BUILD RUN RECORD.json", "revision": report["revision"], **machine(),
                "load_before": load, "load_after": os.getloadavg()[0], "cases": cases}
-    record.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+    write(record, content)
 
 
 if __name__ == "__main__":

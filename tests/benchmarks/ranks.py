@@ -5,24 +5,20 @@ FOLDER: the flows that `sweeps_over_size.py --keep FOLDER` has left for each of 
 Wall time means something on an idle machine only: the load before and after stands in the record.
 """
 
-import json
 import os
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from machine import machine  # noqa: E402
+from records import called, content_of, machine, write
 
 STEPS, CALLS = 100, 3
 
 
 def timed(words, folder):
-    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-    subprocess.run([*map(str, words), "-o", str(folder)], check=True, env=environment, capture_output=True)
-    run = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    called(*words, "-o", folder)
+    run = content_of(folder / "run.json")
     ranks = run.get("ranks", [{"waiting_seconds": 0, "peak_memory_mb": run["peak_memory_mb"]}])
     return {"wall_seconds_per_step": run["wall_seconds"] / STEPS,
             **{f"{phase}_seconds_per_step": run["cost"][f"{phase}_seconds"] / STEPS for phase in ("detection", "setup", "solver", "projection")},
@@ -56,7 +52,7 @@ def main():
                       "two_ranks_over_one": best["1 rank"] / best["2 ranks"], "two_threads_over_one": best["one process"] / best["two threads"], "calls": calls})
     content = {"format": "drumlin-ranks-cost-2", "command": "python3 tests/benchmarks/ranks.py BUILD RECORD.json FOLDER DISCS...", **machine(),
                "load_before": load, "load_after": os.getloadavg()[0], "cases": cases}
-    record.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+    write(record, content)
 
 
 if __name__ == "__main__":

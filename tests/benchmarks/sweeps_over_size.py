@@ -9,8 +9,6 @@ Each drum falls and turns by 0.17 of a turn at the Froude number of 6 rpm, rough
 the rough solution left dies out, are told apart. Counts depend on no machine; seconds are of this one.
 """
 
-import csv
-import json
 import pathlib
 import re
 import statistics
@@ -18,9 +16,8 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from drums import drum, rotation, solved_to, speed_rpm, stage, started_from  # noqa: E402
-from machine import machine  # noqa: E402
+from drums import drum, rotation, solved_to, speed_rpm, stage, started_from
+from records import content_of, machine, steps_of, write
 
 SIZES = (2000, 7183, 30000, 100000)
 STEPS, TRANSIENT = 300, 100
@@ -44,14 +41,13 @@ def is_there(folder, revision, text):
     scene_file = folder.with_suffix(".toml")
     if not (folder / "run.json").exists() or not scene_file.exists() or scene_file.read_text(encoding="utf-8") != text:
         return False
-    run = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    run = content_of(folder / "run.json")
     return run["status"] == "finished" and run["revision"] == revision
 
 
 def counted(folder):
-    run = json.loads((folder / "run.json").read_text(encoding="utf-8"))
-    with (folder / "log.csv").open(encoding="utf-8") as log:
-        sweeps = [int(row["sweeps"]) for row in csv.DictReader(log)]
+    run = content_of(folder / "run.json")
+    sweeps = [int(row["sweeps"]) for row in steps_of(folder)]
 
     def told(some):
         some = sorted(some)
@@ -96,8 +92,7 @@ def main():
             cases.append(case)
     whole = {"format": "drumlin-sweeps-over-size-1", "revision": run["revision"], "command": "python3 tests/benchmarks/sweeps_over_size.py BUILD RECORD.json",
              **machine(), "tolerance": 1e-2, "steps": STEPS, "cases": cases}
-    record.parent.mkdir(parents=True, exist_ok=True)
-    record.write_text(json.dumps(whole, indent=1) + "\n", encoding="utf-8")
+    write(record, whole)
 
 
 if __name__ == "__main__":
