@@ -34,53 +34,6 @@ void expect_refused(const TemporaryFolder& folder, const CompareOptions& options
   EXPECT_FALSE(fs::exists(folder / "report")) << said;
 }
 
-TEST(CompareCommand, RefusesEitherSideThatIsWrongAndWritesNothing) {
-  const TemporaryFolder folder;
-  const fs::path run = measured_folder(folder, "run"), flow = flow_folder(folder, "flow");
-  Json unsteady = example_measured();
-  unsteady["steadiness"] = {{"steady", false}, {"reasons", {"half a turn only"}}};
-  expect_refused(folder,
-                 options_for(folder, measured_folder(folder, "a", example_profiles(), unsteady), flow),
-                 {"half a turn only", "--accept-unsteady"});
-  expect_refused(folder, options_for(folder, run, measured_folder(folder, "b", continuum_profiles())),
-                 {"side", "particles"});
-  expect_refused(folder, options_for(folder, run, flow_folder(folder, "c", example_profiles())),
-                 {"side", "continuum"});
-  expect_refused(folder, options_for(folder, run, folder / "nowhere"), {"no such folder"});
-  CompareOptions floor = options_for(folder, run, flow);
-  floor.floor = folder / "nowhere";
-  expect_refused(folder, floor, {"no such folder"});
-}
-
-TEST(CompareCommand, RefusesMixedUnitsDrumsAndSizes) {
-  const TemporaryFolder folder;
-  const fs::path run = measured_folder(folder, "run");
-  Json flow = example_flow();
-  flow["settings"]["scales"]["density_kg_m3"] = 2500.0;
-  expect_refused(folder, options_for(folder, run, flow_folder(folder, "units", continuum_profiles(), flow)),
-                 {"scales.density_kg_m3", "2700", "2500"});
-  ProfileSet faster = continuum_profiles();
-  faster.header.rotation = 0.05;
-  flow = example_flow();
-  flow["settings"]["rotation"] = 0.05;
-  expect_refused(folder, options_for(folder, run, flow_folder(folder, "faster", faster, flow)), {"rotation"});
-  ProfileSet reduced = continuum_profiles();
-  reduced.header.reduced = true;
-  flow = example_flow();
-  flow["reduced"] = true;
-  expect_refused(folder, options_for(folder, run, flow_folder(folder, "reduced", reduced, flow)),
-                 {"reduced"});
-}
-
-TEST(CompareCommand, RefusesMapsOfAnotherFrame) {
-  const TemporaryFolder folder;
-  const fs::path run = measured_folder(folder, "run"), flow = flow_folder(folder, "flow");
-  FieldMap map = example_map("continuum");
-  map.header.axis_depth = 2;
-  write_field_map(flow / "maps.h5", map);
-  expect_refused(folder, options_for(folder, run, flow), {"maps.h5", "axis_depth"});
-}
-
 TEST(CompareCommand, LeavesAReportWithBandsAndFloorAndWhatIsMissingIsNull) {
   const TemporaryFolder folder;
   Json reduced = example_measured();  // spares the figures of costs
@@ -156,10 +109,28 @@ TEST(CompareCommand, ComparesLayersOfAnyGeometryThatBothSidesShare) {
   expect_has(file_text(folder / "report/index.html"), "between two rough plates");
 }
 
-TEST(CompareCommand, RefusesTwoGeometriesWithBothNames) {
+TEST(CompareCommand, RefusesSidesThatAreWrongAloneOrTogetherAndWritesNothing) {
   const TemporaryFolder folder;
-  const fs::path shear = measured_shear(folder, "shear"), drum = flow_folder(folder, "drum");
-  expect_refused(folder, options_for(folder, shear, drum), {"geometry", "plane_shear", "drum"});
+  const fs::path run = measured_folder(folder, "run"), flow = flow_folder(folder, "flow");
+  Json unsteady = example_measured(), dense = example_flow();
+  unsteady["steadiness"] = {{"steady", false}, {"reasons", {"half a turn only"}}};
+  dense["settings"]["scales"]["density_kg_m3"] = 2500.0;
+  expect_refused(folder,
+                 options_for(folder, measured_folder(folder, "a", example_profiles(), unsteady), flow),
+                 {"half a turn only", "--accept-unsteady"});
+  expect_refused(folder, options_for(folder, run, flow_folder(folder, "c", example_profiles())),
+                 {"side", "continuum"});
+  expect_refused(folder, options_for(folder, run, flow_folder(folder, "units", continuum_profiles(), dense)),
+                 {"scales.density_kg_m3", "2700", "2500"});
+  expect_refused(folder, options_for(folder, measured_shear(folder, "shear"), flow),
+                 {"geometry", "plane_shear", "drum"});
+  CompareOptions floor = options_for(folder, run, flow);
+  floor.floor = folder / "nowhere";
+  expect_refused(folder, floor, {"no such folder"});
+  FieldMap map = example_map("continuum");
+  map.header.axis_depth = 2;
+  write_field_map(flow / "maps.h5", map);
+  expect_refused(folder, options_for(folder, run, flow), {"maps.h5", "axis_depth"});
 }
 
 TEST(CompareCommand, BulkOfLayersIsThatOfTheMeasurement) {

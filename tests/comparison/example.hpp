@@ -67,6 +67,13 @@ inline coupling::ComparedSide continuum_side() {
   return side;
 }
 
+/// A side of a scalar of a comparison.
+template <class Compared>
+double scalar_of(const Compared& comparison, const std::string& name, double coupling::ScalarPair::*side) {
+  for (const coupling::ScalarPair& pair : comparison.scalars)
+    if (pair.name == name) return pair.*side;
+  throw std::runtime_error(name);
+}
 inline ProfileColumn& column_of(ProfileSet& set, const std::string& name) {
   for (auto& column : set.columns)
     if (column.name == name) return column;

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "coupling/common/errors.hpp"
+#include "tests/comparison/example.hpp"
 #include "tests/comparison/shear_example.hpp"
 #include "tests/files/folder.hpp"
 
@@ -21,12 +22,6 @@ const FieldErrors& errors_of(const LayerComparison& comparison, const std::strin
     for (const ZoneErrors& errors : one.zones)
       if (one.overlay.field == field && errors.zone.name == zone) return errors.errors;
   throw InputError(field + ", " + zone + ": is none");
-}
-
-double scalar_of(const LayerComparison& comparison, const std::string& name, double ScalarPair::*side) {
-  for (const ScalarPair& pair : comparison.scalars)
-    if (pair.name == name) return pair.*side;
-  throw InputError(name + ": is none");
 }
 
 TEST(LayerComparison, APackingEndsWhereTheVolumeFractionOfItsBulkWouldHoldItsGrains) {

@@ -1,6 +1,8 @@
 // What a folder must hold to be calibrated on or compared: one refusal each, named by file, key and value.
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "coupling/common/errors.hpp"
 #include "coupling/results/measured_run.hpp"
 #include "tests/comparison/run_folders.hpp"
@@ -29,6 +31,19 @@ void spoil_header(const fs::path& file, const std::string& key, const std::strin
   const auto from = content.find("# " + key + " = ");
   content.replace(from, content.find('\n', from) - from, "# " + key + " = " + text);
   replace_file(file, content);
+}
+
+/// One text of a file of a good folder, replaced, and words of the refusal.
+struct Spoilt {
+  const char *file, *text, *by;
+  std::vector<std::string> words;
+};
+constexpr const char *measured_json = "measured/measured.json", *profiles_csv = "measured/profiles.csv";
+
+void spoil(const fs::path& folder, const Spoilt& spoilt) {
+  std::string content = file_text(folder / spoilt.file);
+  content.replace(content.find(spoilt.text), std::strlen(spoilt.text), spoilt.by);
+  replace_file(folder / spoilt.file, content);
 }
 
 TEST(MeasuredRun, ReadsWhatStandsInTheFolder) {
@@ -61,29 +76,6 @@ TEST(MeasuredRun, RefusesWhatIsNoFolderAndWhatWasNotMeasured) {
   expect_refused(run, {"run drumlin measure"});
 }
 
-TEST(MeasuredRun, RefusesAnotherVersionOfEveryFile) {
-  const TemporaryFolder folder;
-  Json other = example_measured();
-  other["format"] = "drumlin-measured-9";
-  expect_refused(measured_folder(folder, "a", example_profiles(), other),
-                 {"measured.json", "drumlin-measured-1"});
-  Json run = example_run();
-  run["format"] = "drumlin-run-9";
-  expect_refused(measured_folder(folder, "b", example_profiles(), example_measured(), run),
-                 {"run.json", "drumlin-run-1"});
-  const fs::path c = measured_folder(folder, "c");
-  replace_file(c / "measured" / "profiles.csv", "# drumlin-profiles-9\nz,v_x\n");
-  expect_refused(c, {"profiles.csv", "drumlin-profiles-1"});
-}
-
-TEST(MeasuredRun, RefusesAnUnfinishedRun) {
-  const TemporaryFolder folder;
-  Json run = example_run();
-  run["status"] = "running";
-  expect_refused(measured_folder(folder, "run", example_profiles(), example_measured(), run),
-                 {"run.json", "status", "running", "finished"});
-}
-
 TEST(MeasuredRun, RefusesAnUnsteadyRunUnlessItIsAccepted) {
   const TemporaryFolder folder;
   Json measured = example_measured();
@@ -92,14 +84,10 @@ TEST(MeasuredRun, RefusesAnUnsteadyRunUnlessItIsAccepted) {
   expect_refused(run, {"steadiness", "half a turn only", "still settling", "--accept-unsteady"});
   const MeasuredRun accepted = read_measured_run(run, Unsteady::accept);
   EXPECT_EQ(accepted.unsteady, (std::vector<std::string>{"half a turn only", "still settling"}));
-  measured.erase("steadiness");
-  expect_refused(measured_folder(folder, "silent", example_profiles(), measured), {"does not say"});
 }
 
-TEST(MeasuredRun, RefusesTheOtherSideAndAFrameThatIsNotPlaced) {
+TEST(MeasuredRun, RefusesAFrameThatIsNotPlaced) {
   const TemporaryFolder folder;
-  expect_refused(measured_folder(folder, "side", continuum_profiles()),
-                 {"profiles.csv", "side", "continuum", "particles"});
   int number = 0;
   for (const char* key :
        {"side", "theta_deg", "rotation", "drum_radius", "diameter_m", "position", "axis_depth", "wall_z"}) {
@@ -147,39 +135,40 @@ TEST(MeasuredRun, RefusesMissingLayersAndColumns) {
 TEST(MeasuredRun, RefusesNumbersThatAreNone) {
   const TemporaryFolder folder;
   const fs::path run = measured_folder(folder, "run");
-  const fs::path csv = run / "measured" / "profiles.csv", json = run / "measured" / "measured.json";
-  const std::string profiles = file_text(csv), measured = file_text(json);
+  const std::string profiles = file_text(run / profiles_csv);
   for (const char* text : {"nan", "inf", "-inf", "1e999"}) {
     std::string damaged = profiles;
     const auto at = damaged.find("\n-59.5,") + 7;
     damaged.replace(at, damaged.find(',', at) - at, text);
-    replace_file(csv, damaged);
+    replace_file(run / profiles_csv, damaged);
     expect_refused(run, {"profiles.csv", "v_x", text});
   }
-  replace_file(csv, profiles);
-  std::string damaged = measured;
-  damaged.replace(damaged.find("0.0033"), 6, "1e999 ");
-  replace_file(json, damaged);
-  expect_refused(run, {"measured.json"});
 }
 
-TEST(MeasuredRun, RefusesUnitsThatDisagreeBetweenItsFiles) {
-  const TemporaryFolder folder;
-  ProfileSet millimetres = example_profiles();
-  millimetres.header.diameter_m = 3.3;
-  expect_refused(measured_folder(folder, "mm", millimetres),
-                 {"diameter_m", "3.3", "0.0033", "the same units"});
-  Json measured = example_measured();
-  measured["settings"]["scales"]["length_m"] = nullptr;
-  expect_refused(measured_folder(folder, "none", example_profiles(), measured), {"settings.scales.length_m"});
-  measured = example_measured();
-  measured["settings"]["frame_angle_deg"] = 12;
-  expect_refused(measured_folder(folder, "frame", example_profiles(), measured),
-                 {"theta_deg", "12", "the same frame"});
-  measured = example_measured();
-  measured["reduced"] = true;
-  expect_refused(measured_folder(folder, "reduced", example_profiles(), measured),
-                 {"reduced", "false", "true"});
+TEST(MeasuredRun, RefusesOtherVersionsUnfinishedRunsAndFilesThatDisagree) {
+  for (const Spoilt& spoilt : std::vector<Spoilt>{
+           {measured_json,
+            "drumlin-measured-1",
+            "drumlin-measured-9",
+            {"measured.json", "drumlin-measured-1"}},
+           {"run.json", "drumlin-run-1", "drumlin-run-9", {"run.json", "drumlin-run-1"}},
+           {profiles_csv, "drumlin-profiles-1", "drumlin-profiles-9", {"profiles.csv", "drumlin-profiles-1"}},
+           {"run.json", "finished", "running", {"run.json", "status", "running", "finished"}},
+           {measured_json, "steadiness", "mood", {"does not say"}},
+           {profiles_csv, "particles", "continuum", {"profiles.csv", "side", "continuum", "particles"}},
+           {profiles_csv, "0.0033", "3.3", {"diameter_m", "3.3", "0.0033", "the same units"}},
+           {measured_json, "0.0033", "null", {"settings.scales.length_m"}},
+           {measured_json, "0.0033", "1e999", {"measured.json"}},
+           {measured_json,
+            "frame_angle_deg\":19.7",
+            "frame_angle_deg\":12",
+            {"theta_deg", "12", "the same frame"}},
+           {measured_json, "reduced\":false", "reduced\":true", {"reduced", "false", "true"}}}) {
+    const TemporaryFolder folder;
+    const fs::path run = measured_folder(folder, "run");
+    spoil(run, spoilt);
+    expect_refused(run, spoilt.words);
+  }
 }
 
 TEST(MeasuredRun, RefusesASliceOfAnotherFrame) {
@@ -225,21 +214,22 @@ TEST(FlowRunFolder, IsReadAndRefusedInTheSameWay) {
   EXPECT_EQ(read_flow_run(good).scalars.value("theta_deg"), 19.7);
   EXPECT_TRUE(is_flow_run(good));
   EXPECT_FALSE(is_flow_run(measured_folder(folder, "run")));
-  const auto refusal = [&](const fs::path& path) {
-    return message_of<InputError>([&] { read_flow_run(path); });
+  const auto expect_flow_refused = [](const fs::path& path, const std::vector<std::string>& words) {
+    expect_words(message_of<InputError>([&] { read_flow_run(path); }), words);
   };
-  expect_words(refusal(flow_folder(folder, "side", example_profiles())), {"side", "continuum"});
-  Json other = example_flow();
-  other["format"] = "drumlin-flow-run-9";
-  expect_words(refusal(flow_folder(folder, "version", continuum_profiles(), other)), {"drumlin-flow-run-2"});
-  other = example_flow();
-  other["geometry"] = "chute";
-  expect_words(refusal(flow_folder(folder, "chute", continuum_profiles(), other)), {"geometry", "drum"});
+  for (const Spoilt& spoilt : std::vector<Spoilt>{
+           {"profiles.csv", "# side = continuum", "# side = particles", {"side", "continuum"}},
+           {"flow.json", "drumlin-flow-run-2", "drumlin-flow-run-9", {"drumlin-flow-run-2"}},
+           {"flow.json", "geometry\":\"drum", "geometry\":\"chute", {"geometry", "drum"}}}) {
+    const fs::path flow = flow_folder(folder, "spoilt");
+    spoil(flow, spoilt);
+    expect_flow_refused(flow, spoilt.words);
+  }
   ProfileSet hole = continuum_profiles();
   column_of(hole, "v_x").value[30] = std::nan("");
-  expect_words(refusal(flow_folder(folder, "hole", hole)), {"v_x", "is empty"});
+  expect_flow_refused(flow_folder(folder, "hole", hole), {"v_x", "is empty"});
   fs::remove(good / "flow.json");
-  expect_words(refusal(good), {"flow.json", "not finished"});
+  expect_flow_refused(good, {"flow.json", "not finished"});
 }
 
 }  // namespace

@@ -20,12 +20,6 @@ ComparedSide seen_from_higher(ComparedSide side, double offset) {
   return side;
 }
 
-double scalar(const Comparison& comparison, const std::string& name, double ScalarPair::*side) {
-  for (const auto& pair : comparison.scalars)
-    if (pair.name == name) return pair.*side;
-  throw std::runtime_error(name);
-}
-
 void expect_no_error(const std::vector<FieldComparison>& fields, double tolerance) {
   ASSERT_FALSE(fields.empty());
   for (const auto& field : fields)
@@ -42,8 +36,8 @@ TEST(Registration, ByTheAxisDoesNotCareWhereASideCountsFrom) {
     const auto comparison = compare(example_side(), seen_from_higher(continuum_side(), offset));
     EXPECT_NEAR(comparison.offset, offset, 1e-12);
     expect_no_error(comparison.fields, 1e-9);
-    EXPECT_NEAR(scalar(comparison, "H", &ScalarPair::continuum),
-                scalar(comparison, "H", &ScalarPair::particles),
+    EXPECT_NEAR(scalar_of(comparison, "H", &ScalarPair::continuum),
+                scalar_of(comparison, "H", &ScalarPair::particles),
                 offset == 0 ? 0 : 4);  // the example's H is not the straight line's
   }
 }
@@ -63,14 +57,14 @@ TEST(Registration, BySurfaceComparesOtherPlaces) {
 TEST(Registration, KeepsWhatASideSaysFromItsOwnSurface) {
   auto continuum = seen_from_higher(continuum_side(), 1.25);
   const auto comparison = compare(example_side(), continuum);
-  EXPECT_EQ(scalar(comparison, "H", &ScalarPair::continuum_own), example_H);
+  EXPECT_EQ(scalar_of(comparison, "H", &ScalarPair::continuum_own), example_H);
   const auto ours = compare(example_side(), seen_from_higher(continuum_side(), 0));
-  EXPECT_EQ(scalar(ours, "H", &ScalarPair::continuum), example_H) << "what was not moved keeps its words";
+  EXPECT_EQ(scalar_of(ours, "H", &ScalarPair::continuum), example_H) << "what was not moved keeps its words";
   // Read off the same places, the numbers do not depend on where they were counted from.
   const auto further = compare(example_side(), seen_from_higher(continuum_side(), 2.25));
   for (const char* name : {"H", "shear_rate", "lambda", "I_th"})
-    EXPECT_NEAR(scalar(comparison, name, &ScalarPair::continuum),
-                scalar(further, name, &ScalarPair::continuum), 1e-9)
+    EXPECT_NEAR(scalar_of(comparison, name, &ScalarPair::continuum),
+                scalar_of(further, name, &ScalarPair::continuum), 1e-9)
         << name;
 }
 
@@ -86,7 +80,7 @@ TEST(Registration, ReadsLambdaInTheWindowOfTheParticlesToo) {
   const auto& z = continuum.profiles.z;
   for (std::size_t i = 0; i < z.size(); ++i) rate[i] = 0.1 * std::exp(z[i] / 2.5);
   const auto comparison = compare(example_side(), continuum);
-  EXPECT_NEAR(scalar(comparison, "lambda_same_window", &ScalarPair::continuum), 2.5, 1e-9);
+  EXPECT_NEAR(scalar_of(comparison, "lambda_same_window", &ScalarPair::continuum), 2.5, 1e-9);
 }
 
 TEST(Maps, BilinearTakesNodesExactlyAndNeverExtrapolates) {

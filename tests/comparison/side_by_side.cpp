@@ -21,12 +21,6 @@ const Target& target(const Comparison& comparison, const std::string& quantity, 
   throw std::runtime_error(quantity);
 }
 
-double scalar(const Comparison& comparison, const std::string& name, double ScalarPair::*side) {
-  for (const auto& pair : comparison.scalars)
-    if (pair.name == name) return pair.*side;
-  throw std::runtime_error(name);
-}
-
 TEST(Comparison, OfARunWithItselfMeetsEveryTargetThatIsMeasured) {
   const auto comparison = compare(example_side(), example_side());
   ASSERT_EQ(comparison.targets.size(), 11u);
@@ -135,9 +129,9 @@ TEST(Comparison, WhatWasNotComputedIsNeitherMetNorMissed) {
 
 TEST(Comparison, ShearRateAndInterfaceAreReadOffTheProfileWhenNotReported) {
   const auto comparison = compare(example_side(), example_side());
-  EXPECT_NEAR(scalar(comparison, "shear_rate", &ScalarPair::continuum), example_rate, 1e-9);
-  EXPECT_GT(scalar(comparison, "I_th", &ScalarPair::continuum), 0);
-  EXPECT_TRUE(std::isnan(scalar(comparison, "dv_over_shear", &ScalarPair::continuum)));
+  EXPECT_NEAR(scalar_of(comparison, "shear_rate", &ScalarPair::continuum), example_rate, 1e-9);
+  EXPECT_GT(scalar_of(comparison, "I_th", &ScalarPair::continuum), 0);
+  EXPECT_TRUE(std::isnan(scalar_of(comparison, "dv_over_shear", &ScalarPair::continuum)));
 }
 
 TEST(Comparison, PaperNumbersDoNotFitOneLinearLayer) {
