@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     particles::Solution<particles::BlockProblem> solution;
     particles::SolverWorkspace<particles::BlockProblem> work;
     particles::StoppingRule rule;
-    rule.max_sweeps = 5;
+    rule.max_sweeps = 20;
     (void)particles::any_solver<particles::BlockProblem>("nlgs")(read.problem, rule, work, solution);
   });
 }
