@@ -101,18 +101,6 @@ std::string only_problem(const std::vector<std::string>& overrides) {
   return problems.empty() ? "" : problems[0].text();
 }
 
-TEST(KeyTable, FillsAStructWithDefaults) {
-  std::vector<InputProblem> problems;
-  const auto g = read_keys<Garden>(parse_toml(least, "g.toml"), problems);
-  EXPECT_TRUE(problems.empty());
-  EXPECT_EQ(std::get<Sown>(g.start).seeds, 3);
-  EXPECT_EQ(g.soil, "loam");
-  EXPECT_FALSE(g.water);
-  EXPECT_FALSE(g.height_m);
-  ASSERT_EQ(g.beds.size(), 1u);
-  EXPECT_EQ(std::get<Round>(g.beds[0].shape).radius_m, 1);
-}
-
 // They go into the headers of files, whose reader would meet the rest as another line.
 TEST(KeyTable, TextsStandOnOneLineWithoutControlCharacters) {
   for (const char* escape : {"\\n", "\\r", "\\t", "\\u0000", "\\u001B", "\\u007F", "\\u0085", "\\u2028"})

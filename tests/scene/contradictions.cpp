@@ -1,4 +1,5 @@
-// What validate() finds: parts of a scene that do not fit together, each with the key to change (contradictions.json).
+// What validate() finds: parts of a scene that do not fit together, each with the key to change
+// (contradictions.json).
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -14,7 +15,8 @@ namespace {
 std::string cell(const std::string& periods) {
   return "format = \"drumlin-scene-1\"\n" + periods +
          test::generated_grains(8, "{ shape = \"rectangle\", min_mm = [0, 0], max_mm = [20, 20] }") +
-         "[[stages]]\nname = \"shear\"\nduration_s = 0.1\ntime_step_s = 1e-3\ncell = { shear_rate_per_s = 1 }\n";
+         "[[stages]]\nname = \"shear\"\nduration_s = 0.1\ntime_step_s = 1e-3\ncell = { shear_rate_per_s = 1 "
+         "}\n";
 }
 
 TEST(Contradiction, IsTheOnlyProblemAndNamesItsKey) {

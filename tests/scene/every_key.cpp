@@ -1,5 +1,5 @@
-// For every key of a scene file: another value, and what it changes in a tiny run (every_key.json). A key without
-// a case fails the test.
+// For every key of a scene file: another value, and what it changes in a tiny run (every_key.json). A key
+// without a case fails the test.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -54,7 +54,8 @@ ExitCode run_quietly(const apps::RunOptions& options) {
   return code;
 }
 
-/// Of a finished or broken off run; of a refused scene the exit code alone. Beside the scene lie lists of grains.
+/// Of a finished or broken off run; of a refused scene the exit code alone. Beside the scene lie lists of
+/// grains.
 Left left_by_run(const std::string& scene, const std::vector<std::string>& overrides) {
   const testing::TemporaryFolder folder;
   folder.with("two.csv", "x_mm,z_mm,diameter_mm\n-3,2,3\n3,3,3.5\n");

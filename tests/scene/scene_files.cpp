@@ -15,25 +15,6 @@ using testing::example_scene;
 using testing::replaced;
 using testing::scene_problems;
 
-TEST(SceneFile, FillsTheSceneWithDefaults) {
-  const Scene scene = parse_scene(example_scene, "s.toml");
-  EXPECT_EQ(scene.title, "example");
-  EXPECT_FALSE(scene.reduced);
-  const auto& grains = std::get<GeneratedGrains>(scene.grains.source);
-  EXPECT_EQ(grains.count, 12);
-  EXPECT_EQ(std::get<CircleRegion>(grains.region).radius_mm, 15);
-  EXPECT_EQ(std::get<CircleRegion>(grains.region).center_mm, (Point_mm{0, 0}));
-  ASSERT_TRUE(scene.effects.gravity);
-  EXPECT_EQ(scene.effects.gravity->acceleration_m_s2, 9.81);
-  EXPECT_TRUE(scene.effects.spin);
-  EXPECT_FALSE(scene.effects.restitution) << "an effect that is not named is absent";
-  EXPECT_EQ(scene.solver.name, SolverSettings{}.name);
-  ASSERT_EQ(scene.stages.size(), 2u);
-  EXPECT_EQ(duration_s(scene.stages[0]), 0.1);
-  EXPECT_DOUBLE_EQ(duration_s(scene.stages[1]), 0.1);  // a tenth of a turn at one turn per second
-  EXPECT_EQ(std::get<Rotation>(scene.stages[1].motions[0].motion).speed_rpm, 60);
-}
-
 TEST(SceneFile, TurnsBackwardsLastAsLongAsForwards) {
   EXPECT_DOUBLE_EQ(
       duration_s(parse_scene(example_scene, "s.toml", {"stages.1.motions.0.speed_rpm=-60"}).stages[1]), 0.1);

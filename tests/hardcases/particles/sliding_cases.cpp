@@ -25,15 +25,16 @@ double acceleration_on_incline(double slope_deg, double mu, bool spin = true) {
 
 std::vector<HardCheck> incline() {
   const double slope = std::numbers::pi / 9, steep = 4 * slope;  // tan = 0.364 and 5.67
-  return {equals("acceleration, 20 deg, mu = 0.2 (rolls: 0.364 < 0.6)", 2.0 / 3 * std::sin(slope),
-                 acceleration_on_incline(20, 0.2), 1e-8, exact),
-          equals("acceleration, 20 deg, mu = 0.1 (slips: 0.364 > 0.3)",
-                 std::sin(slope) - 0.1 * std::cos(slope), acceleration_on_incline(20, 0.1), 1e-8, exact),
-          equals("acceleration, 80 deg, mu = 0", std::sin(steep), acceleration_on_incline(80, 0), 1e-7, exact),
-          equals("acceleration, 80 deg, mu = 10 (rolls: 5.67 < 30)", 2.0 / 3 * std::sin(steep),
-                 acceleration_on_incline(80, 10), 1e-7, exact),
-          equals("acceleration, 80 deg, mu = 10, no spin (sticks: 5.67 < 10)", 0,
-                 acceleration_on_incline(80, 10, false), 1e-7, exact)};
+  return {
+      equals("acceleration, 20 deg, mu = 0.2 (rolls: 0.364 < 0.6)", 2.0 / 3 * std::sin(slope),
+             acceleration_on_incline(20, 0.2), 1e-8, exact),
+      equals("acceleration, 20 deg, mu = 0.1 (slips: 0.364 > 0.3)", std::sin(slope) - 0.1 * std::cos(slope),
+             acceleration_on_incline(20, 0.1), 1e-8, exact),
+      equals("acceleration, 80 deg, mu = 0", std::sin(steep), acceleration_on_incline(80, 0), 1e-7, exact),
+      equals("acceleration, 80 deg, mu = 10 (rolls: 5.67 < 30)", 2.0 / 3 * std::sin(steep),
+             acceleration_on_incline(80, 10), 1e-7, exact),
+      equals("acceleration, 80 deg, mu = 10, no spin (sticks: 5.67 < 10)", 0,
+             acceleration_on_incline(80, 10, false), 1e-7, exact)};
 }
 
 std::vector<HardCheck> slide_to_roll() {
