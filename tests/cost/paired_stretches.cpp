@@ -48,9 +48,7 @@ TEST(PairedStretches, FreeFallChangesBySamplingAloneAndByNoSolver) {
 
 TEST(PairedStretches, GrainAtRestHasItsWeightWhateverTheSettings) {
   const test::TemporaryFolder folder;
-  Scene scene = test::scene_of({{0, 0.5}});
-  scene.effects.gravity.emplace();
-  scene.walls.push_back(test::floor_wall());
+  Scene scene = test::on_floor({{0, 0.5}});
   test::add_stage(scene, 1, 0.05);
   const PairedStretches result = paired_stretches(scene, end_of(scene), 0.02, 1, [] {});
   const StretchComparison* force = found(result, "contact_force");

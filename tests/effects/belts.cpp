@@ -11,9 +11,7 @@ namespace {
 
 /// A disc at rest on a belt.
 Scene disc_on_belt(double speed, double mu) {
-  Scene scene = scene_of({{0, 0.5}});
-  scene.walls = {floor_wall()};
-  scene.effects.gravity = Gravity{};
+  Scene scene = on_floor({{0, 0.5}});
   scene.effects.friction = Friction{mu, mu};
   add_stage(scene, 3, 1e-2);
   scene.stages[0].motions = {{"floor", Belt{speed / time_s}}};

@@ -53,8 +53,7 @@ TEST(Cohesion, OfAStageHoldsADiscUntilTheNextStageTakesItAway) {
 
 /// Speed after a time of 1 of a disc that cannot turn, on a floor in gravity tilted by 30 degrees.
 double speed_on_a_slope(double mu, double cohesion) {
-  Scene scene = scene_of({{0, 0.5}});
-  scene.walls = {floor_wall()};
+  Scene scene = on_floor({{0, 0.5}});
   scene.effects.gravity = Gravity{9.81, -60};
   scene.effects.friction = Friction{mu, mu};
   scene.effects.cohesion = Cohesion{0, cohesion};

@@ -77,9 +77,7 @@ TEST(Drag, OfAFluidSlowsSmallDiscsFaster) {
 
 TEST(Drag, LeavesADiscAtRestItsWeight) {
   for (const double rate : {0.1, 100.0}) {
-    Scene scene = scene_of({{0, 0.5}, {0, 1.5}});
-    scene.walls = {floor_wall()};
-    scene.effects.gravity = Gravity{};
+    Scene scene = on_floor({{0, 0.5}, {0, 1.5}});
     scene.effects.drag = drag(rate);
     add_stage(scene, 1, 0.05);
     EndedSimulation simulation(scene);
@@ -108,9 +106,7 @@ TEST(Drag, HoldsADiscBackOnABelt) {
   // Friction mu g against rate v: v = mu g / rate (1 - exp(-rate t)), and never more than the belt's speed.
   const double mu = 0.3;
   for (const double rate : {0.5, 5.0, 0.2}) {
-    Scene scene = scene_of({{0, 0.5}});
-    scene.walls = {floor_wall()};
-    scene.effects.gravity = Gravity{};
+    Scene scene = on_floor({{0, 0.5}});
     scene.effects.friction = Friction{mu, mu};
     scene.effects.drag = drag(rate);
     add_stage(scene, 10, 0.1);

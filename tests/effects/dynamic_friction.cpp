@@ -11,8 +11,7 @@ constexpr double mu_s = 0.6, mu_d = 0.2, speed = 0.5;
 
 /// A disc that cannot turn, at v on a floor in gravity tilted by some degrees.
 Scene block(double v, double slope_deg, double duration, double h) {
-  Scene scene = scene_of({{0, 0.5, 1, v}});
-  scene.walls = {floor_wall()};
+  Scene scene = on_floor({{0, 0.5, 1, v}});
   scene.effects.gravity = Gravity{9.81, -90 + slope_deg};
   scene.effects.friction = Friction{mu_s, mu_s};
   scene.effects.dynamic_friction = DynamicFriction{{mu_d, mu_d}, speed / time_s};

@@ -13,8 +13,7 @@ using namespace test;
 namespace {
 
 Scene on_a_floor(double v, double slope_deg, double mu, double mu_r) {
-  Scene scene = scene_of({{0, 0.5, 1, v, 0, 2 * v}});
-  scene.walls = {floor_wall()};
+  Scene scene = on_floor({{0, 0.5, 1, v, 0, 2 * v}});
   scene.effects.gravity = Gravity{9.81, -90 + slope_deg};
   scene.effects.friction = Friction{mu, mu};
   scene.effects.spin = Spin{};

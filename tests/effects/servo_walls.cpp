@@ -79,9 +79,7 @@ TEST(StrainRate, KeepsVelocityOverDistanceAlsoInTheNextStage) {
 TEST(WallLoads, HoldMomentumThroughImpactsAndTheTorqueOfAWeight) {
   // A disc dropped to the right of the middle of a floor: in all its impulse is m (g T + v), at its place.
   const double T = 12;
-  Scene scene = scene_of({{2, 1.5}});
-  scene.walls = {floor_wall()};
-  scene.effects.gravity = Gravity{};
+  Scene scene = on_floor({{2, 1.5}});
   scene.effects.restitution = Restitution{0.6, 0.6};
   add_stage(scene, T, 0.01);
   scene.output.walls_every_s = 100;

@@ -10,9 +10,7 @@ namespace {
 
 /// A disc on a plate that shakes vertically, z = A sin(rate t), A rate^2 = `acceleration` g.
 Scene shaken_plate(double acceleration, double rate) {
-  Scene scene = scene_of({{0, 0.5}});
-  scene.walls = {floor_wall()};
-  scene.effects.gravity = Gravity{};
+  Scene scene = on_floor({{0, 0.5}});
   add_stage(scene, 2 * 2 * std::numbers::pi / rate, 1e-3);
   scene.stages[0].motions = {
       {"floor", Oscillation{{0, acceleration / (rate * rate)}, rate / (2 * std::numbers::pi) / time_s, 0}}};

@@ -60,9 +60,7 @@ TEST(EnergyLedger, ObliqueImpactSplitsIntoNormalAndTangentialLoss) {
 TEST(EnergyLedger, MovingFloorWorksOnABlockUntilItFollows) {
   // The wall works twice what the block keeps; friction takes the other half.
   const double mu = 0.25, speed = 0.4, time_s = std::sqrt(1e-3 / 9.81);
-  Scene scene = scene_of({{0, 0.5}});
-  scene.walls = {floor_wall()};
-  scene.effects.gravity = Gravity{};
+  Scene scene = on_floor({{0, 0.5}});
   scene.effects.friction = Friction{mu, mu};
   add_stage(scene, 3, 1e-2);
   scene.stages[0].motions = {{"floor", Translation{{speed / time_s, 0}}}};
@@ -72,9 +70,7 @@ TEST(EnergyLedger, MovingFloorWorksOnABlockUntilItFollows) {
 }
 
 TEST(EnergyLedger, ProjectionIsBookedAsPotentialEnergy) {
-  Scene scene = scene_of({{0, 0.49}, {0, 1.47}});
-  scene.walls = {floor_wall()};
-  scene.effects.gravity = Gravity{};
+  Scene scene = on_floor({{0, 0.49}, {0, 1.47}});
   add_stage(scene, 2, 0.05);
   const EnergyLedger ledger = ledger_of(scene);
   EXPECT_GT(ledger.projection, 0);

@@ -66,9 +66,7 @@ TEST(Outlets, EndAStageAfterSoManyGrains) {
 TEST(Outlets, LeaveImpulsesAndDisplacementsWithTheirGrains) {
   // Grain 0 glides into the outlet; 1 and 2 press on each other and a floor; 3 glides on.
   const TemporaryFolder folder;
-  Scene scene = scene_of({{-8, 20, 1, -1, 0}, {0, 0.5}, {0, 1.5}, {8, 20, 1, 1, 0}});
-  scene.walls = {floor_wall()};
-  scene.effects.gravity = Gravity{};
+  Scene scene = on_floor({{-8, 20, 1, -1, 0}, {0, 0.5}, {0, 1.5}, {8, 20, 1, 1, 0}});
   scene.outlets = {{"left", RectangleRegion{{-20, 10}, {-9, 30}}}};
   add_stage(scene, 2, 0.01);
   scene.stages[0].snapshots = 1;
@@ -103,9 +101,7 @@ TEST(Outlets, ReturnWhatTheyTakeAsNewGrains) {
 }
 
 TEST(Sources, PourAtTheirRateUpToTheirCountWithoutOverlap) {
-  Scene scene = scene_of({{0, 0.5}});
-  scene.walls = {floor_wall()};
-  scene.effects.gravity = Gravity{};
+  Scene scene = on_floor({{0, 0.5}});
   const double second = std::sqrt(1e-3 / 9.81);
   Source source{"rain", RectangleRegion{{-20, 30}, {20, 36}}};
   source.grains_per_s = 10 / second, source.count = 37;

@@ -64,6 +64,14 @@ inline Wall floor_wall(double half_length = 1000) {
   return {"floor", SegmentShape{{-half_length, 0}, {half_length, 0}}};
 }
 
+/// The same that fall on a floor at z = 0.
+inline Scene on_floor(const std::vector<Grain>& grains) {
+  Scene scene = scene_of(grains);
+  scene.walls = {floor_wall()};
+  scene.effects.gravity = Gravity{};
+  return scene;
+}
+
 /// A simulation at the end of its scene.
 struct EndedSimulation : Simulation {
   template <class... Arguments>
