@@ -1,9 +1,12 @@
 """Runs `drumlin` for the tests of the chain."""
 
+import contextlib
 import json
 import pathlib
 import subprocess
 import sys
+import tempfile
+import time
 
 
 # Changes of tiny-drum.toml that make a run of a fraction of a second.
@@ -23,6 +26,14 @@ class Drumlin:
         return result.stdout, result.stderr
 
 
+@contextlib.contextmanager
+def given():
+    """The program, the folders that the command line names, and one that is removed at the end."""
+    executable, *folders = (pathlib.Path(word).resolve() for word in sys.argv[1:] if not word.startswith("--"))
+    with tempfile.TemporaryDirectory(prefix="drumlin-chain-") as name:
+        yield (Drumlin(str(executable)), *folders, pathlib.Path(name))
+
+
 def has_address_sanitizer(executable):
     """Such a program takes terabytes of addresses, wants to be loaded first, and keeps calls to the system to itself."""
     return b"__asan_init" in pathlib.Path(executable).read_bytes()
@@ -38,6 +49,19 @@ def read_json(file):
     def refuse(constant):
         sys.exit(f"{file}: {constant} is no JSON")
     return json.loads(pathlib.Path(file).read_text(encoding="utf-8"), parse_constant=refuse)
+
+
+def started(*words, **options):
+    """A process that prints nowhere."""
+    return subprocess.Popen(list(map(str, words)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, **options)
+
+
+def wait_until(condition, what, process=None, patience=1200):
+    """At most so many seconds, and while the process, if there is one, is at work."""
+    deadline = time.monotonic() + patience
+    while not condition():
+        require((process is None or process.poll() is None) and time.monotonic() < deadline, f"not in time: {what}")
+        time.sleep(0.001)
 
 
 def require_keys(content, keys, where):

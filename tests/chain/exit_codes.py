@@ -3,11 +3,8 @@
 usage: exit_codes.py DRUMLIN FOLDER_OF_THIS_TEST DATA
 """
 
-import pathlib
-import sys
-import tempfile
 
-from command import Drumlin, bytes_below, read_json, require
+from command import bytes_below, given, read_json, require
 
 
 def cell_too_short(drumlin, data, folder):
@@ -39,11 +36,9 @@ def layer_at_rest(drumlin, data, folder):
 
 
 def main():
-    drumlin, here, data = Drumlin(sys.argv[1]), pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
-    scene, flow_scene = here / "tiny-drum.toml", here / "tiny-drum-flow.toml"
-    law, limits = data / "rheology" / "paper.toml", data / "limits" / "bed.toml"
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
+    with given() as (drumlin, here, data, folder):
+        scene, flow_scene = here / "tiny-drum.toml", here / "tiny-drum-flow.toml"
+        law, limits = data / "rheology" / "paper.toml", data / "limits" / "bed.toml"
         missing, full, long = folder / "missing", folder / "full", folder / ("x" * 300)
         full.mkdir()
         (full / "keep.txt").write_text("years of work", encoding="utf-8")
@@ -82,10 +77,7 @@ def main():
             "a folder that is not ours, to be overwritten": [
                 ["run", scene, "-o", full, "--overwrite"],
                 ["flow", flow_scene, "--rheology", law, "-o", full, "--overwrite"]],
-            "an unknown option, command or key": [
-                ["run", scene, "-o", output, "--fast"], ["jump"], [], ["scene", "check"],
-                ["run", scene, "-o", output, "--threads", "0"], ["run", scene, "-o", output, "--set", "no_such_key=1"],
-                ["run", scene, "-o", output, "--resume", "--overwrite"]],
+            "an unknown command or key": [["jump"], ["run", scene, "-o", output, "--set", "no_such_key=1"]],
         }
         for reason, commands in refused.items():
             for words in commands:
@@ -94,13 +86,6 @@ def main():
                 require(not output.exists(), f"{reason}: {words} left an output")
                 require(bytes_below(folder) == before, f"{reason}: {words} touched files")
         print(f"{sum(map(len, refused.values()))} commands refused with exit code 2")
-        shown = 0
-        for words in ([], ["run"], ["measure"], ["calibrate"], ["flow"], ["compare"], ["score"], ["scene"], ["solve-contacts"],
-                      ["plot"], ["export"], ["history"]):
-            text, _ = drumlin(*words, "--help")
-            require(len(text) > 100, f"{words} --help says too little")
-            shown += 1
-        print(f"{shown} helps shown")
         cell_too_short(drumlin, data, folder)
         layer_at_rest(drumlin, data, folder)
 

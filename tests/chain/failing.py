@@ -38,11 +38,17 @@ def place_of_hdf5(executable):
     return f"{places[0]}:{places[-1]}" if places else None
 
 
+def counted(file):
+    """{kind: calls} as the library wrote them."""
+    lines = (line.split() for line in file.read_text(encoding="utf-8").splitlines())
+    return {kind: int(count) for kind, count in lines}
+
+
 class Trials:
     """One small run, repeated with one failure after the other."""
 
     def __init__(self, given, work):
-        self.words = [str(given.executable.resolve()), "run", given.tests / "tiny-drum.toml", *SMALL]
+        self.executable, self.words = str(given.executable.resolve()), [given.tests / "tiny-drum.toml", *SMALL]
         self.library, self.show, self.run = str(given.library.resolve()), given.show, work / "run"
         place = place_of_hdf5(given.executable)
         self.environment = os.environ | {"LD_PRELOAD": self.library} | ({"FAILING_HDF5": place} if place else {})
@@ -50,14 +56,13 @@ class Trials:
         code, said = self.started(whole, FAILING_COUNTS_TO=str(counts))
         require(code == 0, f"nothing fails: exit code {code}\n{said}")
         self.expected = results_of_run(whole)
-        lines = [line.split() for line in counts.read_text(encoding="utf-8").splitlines()]
-        self.calls = {kind: int(count) for kind, count in lines}
+        self.calls = counted(counts)
         require(all(self.calls.values()), f"not every kind of call was seen: {self.calls}")
 
-    def started(self, run, *words, **failing):
-        """Exit code of the run and what it said but for its progress."""
-        environment = self.environment | failing if failing else os.environ
-        result = subprocess.run([*self.words, "-o", run, *words], capture_output=True, text=True, check=False, timeout=PATIENCE, env=environment)
+    def started(self, run, *words, scene=None, **failing):
+        """Exit code of the run and what it said but for its progress. `scene`: another than the small one."""
+        environment, of = self.environment | failing if failing else os.environ, [scene] if scene else self.words
+        result = subprocess.run([self.executable, "run", *of, "-o", run, *words], capture_output=True, text=True, check=False, timeout=PATIENCE, env=environment)
         lines = (result.stdout + result.stderr).splitlines()
         return result.returncode, "\n".join(line for line in lines if not line.startswith("reduced run"))
 
@@ -87,17 +92,14 @@ class Trials:
         require(self.started(finished)[0] == 0, "a run to prolong")
 
         def extended(folder, *words, **failing):
-            environment = self.environment | failing if failing else os.environ
-            result = subprocess.run([self.words[0], "run", folder / "scene.toml", "-o", folder, *words], capture_output=True, text=True, check=False,
-                                    timeout=PATIENCE, env=environment)
-            return result.returncode, result.stdout + result.stderr
+            return self.started(folder, *words, scene=folder / "scene.toml", **failing)
 
         counts = self.run.with_name("counts-extended")
         shutil.copytree(finished, longer)
         code, said = extended(longer, "--extend", "0.01", FAILING_COUNTS_TO=str(counts))
         require(code == 0, f"nothing fails: exit code {code}\n{said}")
         expected = results_of_run(longer)
-        calls = int(next(line.split()[1] for line in counts.read_text(encoding="utf-8").splitlines() if line.split()[0] == kind))
+        calls = counted(counts)[kind]
         for number in range(1, calls + 1):
             what = f"--extend, {kind} {number} of {calls}"
             shutil.rmtree(run, ignore_errors=True)

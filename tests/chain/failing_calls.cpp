@@ -18,7 +18,6 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <cstdarg>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -123,10 +122,6 @@ int counted_main(int argc, char** argv, char** environment) {
   return code;
 }
 
-mode_t mode_in(int flags, va_list more) {
-  return (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(more, mode_t) : 0;
-}
-
 }  // namespace
 
 extern "C" {
@@ -138,35 +133,18 @@ int __libc_start_main(Main* program, int argc, char** argv, Main* init, void (*f
   return real<Start>("__libc_start_main")(counted_main, argc, argv, init, fini, end, stack);
 }
 
-int open(const char* path, int flags, ...) {
-  va_list more;
-  va_start(more, flags);
-  const mode_t mode = mode_in(flags, more);
-  va_end(more);
+// The mode that a call without it does not hand over is not looked at. Names with 64 are the same calls.
+int open_here(const char* path, int flags, mode_t mode) asm("open");
+int open_here(const char* path, int flags, mode_t mode) {
   return fails(Call::open) ? -1 : real<int(const char*, int, ...)>("open")(path, flags, mode);
 }
-int open64(const char* path, int flags, ...) {
-  va_list more;
-  va_start(more, flags);
-  const mode_t mode = mode_in(flags, more);
-  va_end(more);
-  return fails(Call::open) ? -1 : real<int(const char*, int, ...)>("open64")(path, flags, mode);
-}
-int openat(int folder, const char* path, int flags, ...) {
-  va_list more;
-  va_start(more, flags);
-  const mode_t mode = mode_in(flags, more);
-  va_end(more);
+int open64_here(const char* path, int flags, mode_t mode) asm("open64") __attribute__((alias("open")));
+int open_at(int folder, const char* path, int flags, mode_t mode) asm("openat");
+int open_at(int folder, const char* path, int flags, mode_t mode) {
   return fails(Call::open) ? -1 : real<int(int, const char*, int, ...)>("openat")(folder, path, flags, mode);
 }
-int openat64(int folder, const char* path, int flags, ...) {
-  va_list more;
-  va_start(more, flags);
-  const mode_t mode = mode_in(flags, more);
-  va_end(more);
-  return fails(Call::open) ? -1
-                           : real<int(int, const char*, int, ...)>("openat64")(folder, path, flags, mode);
-}
+int open64_at(int folder, const char* path, int flags, mode_t mode) asm("openat64")
+    __attribute__((alias("openat")));
 
 ssize_t write(int file, const void* bytes, size_t count) {
   return fails(Call::write) ? -1 : real<ssize_t(int, const void*, size_t)>("write")(file, bytes, count);
@@ -176,27 +154,19 @@ ssize_t pwrite(int file, const void* bytes, size_t count, off_t offset) {
              ? -1
              : real<ssize_t(int, const void*, size_t, off_t)>("pwrite")(file, bytes, count, offset);
 }
-ssize_t pwrite64(int file, const void* bytes, size_t count, off64_t offset) {
-  return fails(Call::write)
-             ? -1
-             : real<ssize_t(int, const void*, size_t, off64_t)>("pwrite64")(file, bytes, count, offset);
-}
+ssize_t pwrite64(int, const void*, size_t, off64_t) __attribute__((alias("pwrite")));
 
 int fsync(int file) { return fails(Call::fsync) ? -1 : real<int(int)>("fsync")(file); }
-int fdatasync(int file) { return fails(Call::fsync) ? -1 : real<int(int)>("fdatasync")(file); }
+int fdatasync(int) __attribute__((alias("fsync")));
 
-int rename(const char* from, const char* to) noexcept {
-  return fails(Call::rename) ? -1 : real<int(const char*, const char*)>("rename")(from, to);
-}
-int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
-  return fails(Call::rename)
-             ? -1
-             : real<int(int, const char*, int, const char*)>("renameat")(from_folder, from, to_folder, to);
-}
 int renameat2(int from_folder, const char* from, int to_folder, const char* to, unsigned flags) noexcept {
   using Rename = int(int, const char*, int, const char*, unsigned);
   return fails(Call::rename) ? -1 : real<Rename>("renameat2")(from_folder, from, to_folder, to, flags);
 }
+int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
+  return renameat2(from_folder, from, to_folder, to, 0);
+}
+int rename(const char* from, const char* to) noexcept { return renameat2(AT_FDCWD, from, AT_FDCWD, to, 0); }
 
 /// A close that fails has closed all the same, as on Linux.
 int close(int file) {

@@ -16,7 +16,6 @@
 #include <unistd.h>
 
 #include <climits>
-#include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
@@ -68,18 +67,6 @@ std::string inode_of(int folder, const char* path) {
   return std::to_string(found.st_ino);
 }
 
-template <class Open>
-int opened(int folder, const char* path, int flags, Open open) {
-  const std::scoped_lock lock(one_at_a_time);
-  const bool creates = (flags & O_CREAT) != 0 && !is_there(folder, path);
-  const int file = open();
-  if (file < 0) return file;
-  if (creates) record("create " + inode_of(file) + " " + absolute(folder, path));
-  if (!creates && (flags & O_TRUNC) != 0 && !inode_of(file).empty())
-    record("truncate " + inode_of(file) + " 0");
-  return file;
-}
-
 ssize_t written(int file, const void* bytes, ssize_t count, off_t offset) {
   if (count <= 0 || inode_of(file).empty()) return count;
   std::string line = "write " + inode_of(file) + " " + std::to_string(offset) + " ";
@@ -97,56 +84,27 @@ int synced(int file, int result) {
   return result;
 }
 
-int renamed(int from_folder, const char* from, int to_folder, const char* to, int result) {
-  if (result == 0) record("rename " + absolute(from_folder, from) + " " + absolute(to_folder, to));
-  return result;
-}
-
-int removed(int folder, const char* path, int result) {
-  if (result == 0) record("remove " + absolute(folder, path));
-  return result;
-}
-
-mode_t mode_in(int flags, va_list more) {
-  return (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(more, mode_t) : 0;
-}
-
 }  // namespace
 
 extern "C" {
 
-int open(const char* path, int flags, ...) {
-  va_list more;
-  va_start(more, flags);
-  const mode_t mode = mode_in(flags, more);
-  va_end(more);
-  return opened(AT_FDCWD, path, flags,
-                [&] { return real<int(const char*, int, ...)>("open")(path, flags, mode); });
+// The mode that a call without it does not hand over is not looked at. Names with 64 are the same calls.
+int open_at(int folder, const char* path, int flags, mode_t mode) asm("openat");
+int open_at(int folder, const char* path, int flags, mode_t mode) {
+  const std::scoped_lock lock(one_at_a_time);
+  const bool creates = (flags & O_CREAT) != 0 && !is_there(folder, path);
+  const int file = real<int(int, const char*, int, ...)>("openat")(folder, path, flags, mode);
+  if (file < 0) return file;
+  if (creates) record("create " + inode_of(file) + " " + absolute(folder, path));
+  if (!creates && (flags & O_TRUNC) != 0 && !inode_of(file).empty())
+    record("truncate " + inode_of(file) + " 0");
+  return file;
 }
-int open64(const char* path, int flags, ...) {
-  va_list more;
-  va_start(more, flags);
-  const mode_t mode = mode_in(flags, more);
-  va_end(more);
-  return opened(AT_FDCWD, path, flags,
-                [&] { return real<int(const char*, int, ...)>("open64")(path, flags, mode); });
-}
-int openat(int folder, const char* path, int flags, ...) {
-  va_list more;
-  va_start(more, flags);
-  const mode_t mode = mode_in(flags, more);
-  va_end(more);
-  return opened(folder, path, flags,
-                [&] { return real<int(int, const char*, int, ...)>("openat")(folder, path, flags, mode); });
-}
-int openat64(int folder, const char* path, int flags, ...) {
-  va_list more;
-  va_start(more, flags);
-  const mode_t mode = mode_in(flags, more);
-  va_end(more);
-  return opened(folder, path, flags,
-                [&] { return real<int(int, const char*, int, ...)>("openat64")(folder, path, flags, mode); });
-}
+int open64_at(int folder, const char* path, int flags, mode_t mode) asm("openat64")
+    __attribute__((alias("openat")));
+int open_here(const char* path, int flags, mode_t mode) asm("open");
+int open_here(const char* path, int flags, mode_t mode) { return open_at(AT_FDCWD, path, flags, mode); }
+int open64_here(const char* path, int flags, mode_t mode) asm("open64") __attribute__((alias("open")));
 
 ssize_t write(int file, const void* bytes, size_t count) {
   const std::scoped_lock lock(one_at_a_time);
@@ -158,11 +116,7 @@ ssize_t pwrite(int file, const void* bytes, size_t count, off_t offset) {
   const auto done = real<ssize_t(int, const void*, size_t, off_t)>("pwrite")(file, bytes, count, offset);
   return written(file, bytes, done, offset);
 }
-ssize_t pwrite64(int file, const void* bytes, size_t count, off64_t offset) {
-  const std::scoped_lock lock(one_at_a_time);
-  const auto done = real<ssize_t(int, const void*, size_t, off64_t)>("pwrite64")(file, bytes, count, offset);
-  return written(file, bytes, done, offset);
-}
+ssize_t pwrite64(int, const void*, size_t, off64_t) __attribute__((alias("pwrite")));
 
 int ftruncate(int file, off_t size) noexcept {
   const std::scoped_lock lock(one_at_a_time);
@@ -170,21 +124,13 @@ int ftruncate(int file, off_t size) noexcept {
   if (result == 0) record("truncate " + inode_of(file) + " " + std::to_string(size));
   return result;
 }
-int ftruncate64(int file, off64_t size) noexcept {
-  const std::scoped_lock lock(one_at_a_time);
-  const int result = real<int(int, off64_t)>("ftruncate64")(file, size);
-  if (result == 0) record("truncate " + inode_of(file) + " " + std::to_string(size));
-  return result;
-}
+int ftruncate64(int, off64_t) noexcept __attribute__((alias("ftruncate")));
 
 int fsync(int file) {
   const std::scoped_lock lock(one_at_a_time);
   return synced(file, real<int(int)>("fsync")(file));
 }
-int fdatasync(int file) {
-  const std::scoped_lock lock(one_at_a_time);
-  return synced(file, real<int(int)>("fdatasync")(file));
-}
+int fdatasync(int) __attribute__((alias("fsync")));
 
 int mkdir(const char* path, mode_t mode) noexcept {
   const std::scoped_lock lock(one_at_a_time);
@@ -193,30 +139,26 @@ int mkdir(const char* path, mode_t mode) noexcept {
   return result;
 }
 
-int rename(const char* from, const char* to) noexcept {
-  const std::scoped_lock lock(one_at_a_time);
-  return renamed(AT_FDCWD, from, AT_FDCWD, to, real<int(const char*, const char*)>("rename")(from, to));
-}
 int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
   const std::scoped_lock lock(one_at_a_time);
-  return renamed(from_folder, from, to_folder, to,
-                 real<int(int, const char*, int, const char*)>("renameat")(from_folder, from, to_folder, to));
+  const int result =
+      real<int(int, const char*, int, const char*)>("renameat")(from_folder, from, to_folder, to);
+  if (result == 0) record("rename " + absolute(from_folder, from) + " " + absolute(to_folder, to));
+  return result;
 }
+int rename(const char* from, const char* to) noexcept { return renameat(AT_FDCWD, from, AT_FDCWD, to); }
 
-int unlink(const char* path) noexcept {
-  const std::scoped_lock lock(one_at_a_time);
-  return removed(AT_FDCWD, path, real<int(const char*)>("unlink")(path));
-}
 int unlinkat(int folder, const char* path, int flags) noexcept {
   const std::scoped_lock lock(one_at_a_time);
-  return removed(folder, path, real<int(int, const char*, int)>("unlinkat")(folder, path, flags));
+  const int result = real<int(int, const char*, int)>("unlinkat")(folder, path, flags);
+  if (result == 0) record("remove " + absolute(folder, path));
+  return result;
 }
+int unlink(const char* path) noexcept { return unlinkat(AT_FDCWD, path, 0); }
+int rmdir(const char* path) noexcept { return unlinkat(AT_FDCWD, path, AT_REMOVEDIR); }
 int remove(const char* path) noexcept {
-  const std::scoped_lock lock(one_at_a_time);
-  return removed(AT_FDCWD, path, real<int(const char*)>("remove")(path));
-}
-int rmdir(const char* path) noexcept {
-  const std::scoped_lock lock(one_at_a_time);
-  return removed(AT_FDCWD, path, real<int(const char*)>("rmdir")(path));
+  struct stat found {};
+  const bool is_folder = ::lstat(path, &found) == 0 && S_ISDIR(found.st_mode);
+  return is_folder ? rmdir(path) : unlink(path);
 }
 }

@@ -3,13 +3,10 @@
 usage: first_day.py DRUMLIN FOLDER_OF_TEMPLATES
 """
 
-import pathlib
 import re
 import subprocess
-import sys
-import tempfile
 
-from command import Drumlin, read_json, require
+from command import given, read_json, require
 
 # What makes a run of each scene short.
 SHORT = {"drum": ["stages.0.duration_s=0.02", "stages.1.turns=0.005", "stages.2.turns=0.01", "stages.2.snapshots=3"],
@@ -116,11 +113,9 @@ def completes(drumlin):
 
 
 def main():
-    drumlin = Drumlin(sys.argv[1])
-    completes(drumlin)
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        scenes(drumlin, pathlib.Path(sys.argv[2]), folder)
+    with given() as (drumlin, templates, folder):
+        completes(drumlin)
+        scenes(drumlin, templates, folder)
         reports(drumlin, folder)
     print("scenes to start from run; runs have their page; the shell completes")
 

@@ -3,15 +3,10 @@
 usage: folders.py DRUMLIN FOLDER_OF_THIS_TEST
 """
 
-import pathlib
 import shutil
 import signal
-import subprocess
-import sys
-import tempfile
-import time
 
-from command import Drumlin, bytes_below, read_json, require
+from command import bytes_below, given, read_json, require, started, wait_until
 
 SHORT = ["--set", "stages.1.turns=0.05", "--set", "stages.2.turns=0.05", "--set", "stages.2.snapshots=6",
          "--set", "output.checkpoint_every_s=0.05"]
@@ -147,16 +142,13 @@ def strangers_stay(drumlin, scene, run, folder):
     drumlin("export", run, "--vtu", "-o", ours, "--overwrite", code=2)  # a run is no export
 
 
-def old_results_wait(executable, drumlin, scene, run, folder):
+def old_results_wait(drumlin, scene, run, folder):
     """A run that replaces another is killed, then finished."""
     again = folder / "again"
     shutil.copytree(run, again)
     words = ["run", scene, "-o", again, *SHORT, "--set", "stages.2.turns=0.2"]
-    process = subprocess.Popen([executable, *map(str, words), "--overwrite"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    deadline = time.monotonic() + 120
-    while not all((again / name).exists() for name in ("replaced/run.json", "run.json", "log.csv")):
-        require(process.poll() is None and time.monotonic() < deadline, "nothing was written")
-        time.sleep(0.001)
+    process = started(drumlin.executable, *words, "--overwrite")
+    wait_until(lambda: all((again / name).exists() for name in ("replaced/run.json", "run.json", "log.csv")), "new results", process)
     # The one that is at work is named; a second one does nothing.
     process.send_signal(signal.SIGSTOP)
     for second in (["--resume"], ["--overwrite"], []):
@@ -179,12 +171,8 @@ def old_results_wait(executable, drumlin, scene, run, folder):
 
 
 def main():
-    executable, tests = sys.argv[1], pathlib.Path(sys.argv[2])
-    drumlin = Drumlin(executable)
-    scene = tests / "tiny-drum.toml"
-    with tempfile.TemporaryDirectory(prefix="drumlin-folders-") as name:
-        folder = pathlib.Path(name)
-        run = folder / "run"
+    with given() as (drumlin, tests, folder):
+        scene, run = tests / "tiny-drum.toml", folder / "run"
         drumlin("run", scene, "-o", run, *SHORT)
         drumlin("measure", run, "--parts", "maps")
         every_file_is_checked(drumlin, run)
@@ -192,7 +180,7 @@ def main():
         edits_are_told(drumlin, run, folder)
         measured_belongs_to_its_run(drumlin, scene, run, folder)
         strangers_stay(drumlin, scene, run, folder)
-        old_results_wait(executable, drumlin, scene, run, folder)
+        old_results_wait(drumlin, scene, run, folder)
     print("folders: checked, accepted, untouched, locked")
 
 

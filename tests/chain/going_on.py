@@ -4,10 +4,8 @@ usage: going_on.py DRUMLIN FOLDER_OF_THIS_TEST
 """
 
 import pathlib
-import sys
-import tempfile
 
-from command import SHORT_RUN, Drumlin, read_json, require, results_of_run
+from command import SHORT_RUN, given, read_json, require, results_of_run
 
 LONGER = ["--set", "stages.2.turns=0.04", "--set", "stages.2.snapshots=8"]  # 0.08 s more, twice the snapshots
 
@@ -62,9 +60,8 @@ def check_started(drumlin, scene, there):
 
 
 def main():
-    drumlin, scene = Drumlin(sys.argv[1]), pathlib.Path(sys.argv[2]) / "tiny-drum.toml"
-    with tempfile.TemporaryDirectory(prefix="drumlin-going-on-") as name:
-        there = pathlib.Path(name)
+    with given() as (drumlin, tests, there):
+        scene = tests / "tiny-drum.toml"
         check_prolonged(drumlin, scene, there)
         check_prolonged_where_the_step_was_adjusted(drumlin, scene, there)
         check_started(drumlin, scene, there)

@@ -5,15 +5,12 @@ usage: importing.py DRUMLIN FOLDER_OF_THIS_TEST
 
 import csv
 import math
-import pathlib
 import random
-import sys
-import tempfile
 
 import h5py
 import numpy
 
-from command import Drumlin, read_json, require
+from command import given, read_json, require
 
 DESCRIPTION = """
 format = "drumlin-import-1"
@@ -141,9 +138,7 @@ def imported(drumlin, folder, description, *words):
 
 
 def main():
-    drumlin, here = Drumlin(sys.argv[1]), pathlib.Path(sys.argv[2])
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
+    with given() as (drumlin, here, folder):
         run = folder / "run"
         # Without a window: what other programs write are velocities at an instant.
         drumlin("run", here / "tiny-drum.toml", "-o", run, "--set", "output.velocity_window_s=0",

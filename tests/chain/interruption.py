@@ -3,17 +3,14 @@
 usage: interruption.py DRUMLIN FOLDER_OF_THIS_TEST
 """
 
-import pathlib
 import resource
 import shutil
 import signal
 import subprocess
-import sys
-import tempfile
 import time
 from random import Random
 
-from command import Drumlin, bytes_below, read_json, require, results_of_run
+from command import bytes_below, given, read_json, require, results_of_run, started, wait_until
 
 OVERRIDES = ["--set", "output.checkpoint_every_s=0.05", "--set", "stages.1.turns=0.2", "--set", "stages.2.turns=0.2",
              "--set", "output.energy_ledger=true"]
@@ -23,12 +20,8 @@ def stopped(executable, scene, run, stop, code, overrides=OVERRIDES):
     """Starts a run and stops it by a signal once it has left a checkpoint and a snapshot; one that was done before is begun again."""
     for _ in range(20):
         shutil.rmtree(run, ignore_errors=True)
-        process = subprocess.Popen([executable, "run", scene, "-o", run, *overrides], stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.DEVNULL)
-        deadline = time.monotonic() + 120
-        while not ((run / "checkpoint.h5").exists() and list((run / "snapshots").glob("*.h5"))) and process.poll() is None:
-            require(time.monotonic() < deadline, f"{run.name}: no checkpoint and snapshot in time")
-            time.sleep(0.001)
+        process = started(executable, "run", scene, "-o", run, *overrides)
+        wait_until(lambda: process.poll() is not None or (run / "checkpoint.h5").exists() and list((run / "snapshots").glob("*.h5")), f"{run.name}: checkpoint and snapshot")
         process.send_signal(stop)
         if process.wait(timeout=600) != 0:
             break
@@ -40,8 +33,7 @@ def killed_again_and_again(executable, scene, run, expected):
     random, kills = Random(7), 0
     words = []
     while True:
-        process = subprocess.Popen([executable, "run", scene, "-o", run, *words, *OVERRIDES], stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.DEVNULL)
+        process = started(executable, "run", scene, "-o", run, *words, *OVERRIDES)
         words = ["--resume"]
         try:
             # Later and later, so that a slow machine gets there too.
@@ -59,12 +51,8 @@ def killed_again_and_again(executable, scene, run, expected):
 def stopped_within_a_step(executable, scene, run):
     """A signal that comes while a long step is solved: that step ends, a checkpoint is left, no other step begins."""
     words = ["--set", "solver.tolerance=1e-15", "--set", "solver.penetration_tolerance=1e-15", "--set", "solver.max_sweeps=20000"]
-    process = subprocess.Popen([executable, "run", scene, "-o", run, *OVERRIDES, *words], stdout=subprocess.DEVNULL,
-                               stderr=subprocess.DEVNULL)
-    deadline = time.monotonic() + 120
-    while not (run / "run.json").exists():
-        require(process.poll() is None and time.monotonic() < deadline, "long steps: no run.json in time")
-        time.sleep(0.001)
+    process = started(executable, "run", scene, "-o", run, *OVERRIDES, *words)
+    wait_until((run / "run.json").exists, "long steps: run.json", process)
     time.sleep(0.5)
     process.terminate()
     require(process.wait(timeout=1200) == 143, f"long steps: exit code {process.returncode} instead of 143")
@@ -104,11 +92,8 @@ def full_disk(executable, drumlin, scene, kept, run, expected):
 
 
 def main():
-    executable, tests = sys.argv[1], pathlib.Path(sys.argv[2])
-    drumlin = Drumlin(executable)
-    scene = tests / "tiny-drum.toml"
-    with tempfile.TemporaryDirectory(prefix="drumlin-interruption-") as name:
-        work = pathlib.Path(name)
+    with given() as (drumlin, tests, work):
+        executable, scene = drumlin.executable, tests / "tiny-drum.toml"
         whole = work / "whole"
         drumlin("run", scene, "-o", whole, *OVERRIDES)
         expected = results_of_run(whole)

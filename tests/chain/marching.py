@@ -4,14 +4,10 @@ usage: marching.py DRUMLIN FOLDER_OF_THIS_TEST
 """
 
 import csv
-import pathlib
 import signal
-import subprocess
 import sys
-import tempfile
-import time
 
-from command import Drumlin, read_json, require
+from command import given, read_json, require, started, wait_until
 
 TIME = ["--set", "time.step_s=0.05", "--set", "time.steps=6", "--set", "time.every=2", "--set", "time.ramp_s=0.1"]
 
@@ -28,20 +24,15 @@ def results(run):
 
 def stopped(command, run, stop, code):
     """Starts a march and stops it by a signal once it has kept a state."""
-    process = subprocess.Popen([*command, "-o", run], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    deadline = time.monotonic() + 120
-    while not (run / "checkpoint.h5").exists():
-        require(process.poll() is None and time.monotonic() < deadline, f"{run.name}: no kept state in time")
-        time.sleep(0.001)
+    process = started(*command, "-o", run)
+    wait_until((run / "checkpoint.h5").exists, f"{run.name}: a kept state", process)
     process.send_signal(stop)
     require(process.wait(timeout=600) == code, f"{run.name}: exit code {process.returncode} instead of {code}")
     require(not (run / "flow.json").exists(), f"{run.name}: finished although it was stopped")
 
 
 def main():
-    drumlin, here = Drumlin(sys.argv[1]), pathlib.Path(sys.argv[2])
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
+    with given() as (drumlin, here, folder):
         data = here.parents[1] / "data"
         law = data / "rheology" / "paper.toml"
         march = ["flow", here / "tiny-drum-flow.toml", "--rheology", law, *TIME]

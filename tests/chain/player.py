@@ -4,15 +4,12 @@ usage: player.py DRUMLIN FOLDER_OF_THIS_TEST
 """
 
 import math
-import pathlib
 import re
-import sys
-import tempfile
 
 import h5py
 import numpy
 
-from command import SHORT_RUN, Drumlin, read_json, require
+from command import SHORT_RUN, given, read_json, require
 from looking import NO_SNAPSHOTS, PERIODIC, made_run
 from player_file import Player
 
@@ -153,9 +150,7 @@ def require_alone(folder):
 
 
 def main():
-    drumlin, here = Drumlin(sys.argv[1]), pathlib.Path(sys.argv[2])
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
+    with given() as (drumlin, here, folder):
         periodic = made_run(drumlin, folder, "periodic", PERIODIC.replace("Shaken floor", EVIL))
         said, _ = drumlin("plot", periodic, "--player")
         drawn = read_json(periodic / "plots" / "plots.json")

@@ -5,12 +5,10 @@ usage: player_in_browser.py DRUMLIN FOLDER_OF_THIS_TEST
 Ends with 77, which CTest calls skipped, where no Chromium is installed (apt-get install chromium).
 """
 
-import pathlib
 import sys
-import tempfile
 
 import browser
-from command import Drumlin, require
+from command import given, require
 from looking import made_run
 from player import EVIL, TRAFFIC
 from player_file import Player
@@ -150,9 +148,7 @@ def main():
     if program is None:
         print("skipped: no Chromium is installed")
         sys.exit(SKIPPED)
-    drumlin = Drumlin(sys.argv[1])
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
+    with given() as (drumlin, _, folder):
         # Grains that lie, come and go, spin and rub.
         scene = TRAFFIC.replace("Grains that come and go", EVIL).replace("[effects.gravity]", "[effects.gravity]\n[effects.spin]\n[effects.friction]\n"
                                                                         "grain_grain = 0.4\ngrain_wall = 0.4")

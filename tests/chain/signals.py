@@ -7,12 +7,10 @@ import os
 import pathlib
 import shutil
 import signal
-import subprocess
-import sys
-import tempfile
 import time
 
-from command import SHORT_RUN, Drumlin, bytes_below, read_json, require, require_whole_files
+from command import SHORT_RUN, bytes_below, given, read_json, require, require_whole_files, wait_until
+from command import started as started_masked
 
 # Steps that nobody waits for, for what must be stopped.
 ENDLESS = ["--set", "stages.2.turns=1000"]
@@ -26,15 +24,8 @@ def unmasked():
         signal.signal(number, signal.SIG_DFL)
 
 
-def started(command, **options):
-    return subprocess.Popen(list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=unmasked, **options)
-
-
-def wait_until(condition, what):
-    deadline = time.monotonic() + PATIENCE
-    while not condition():
-        require(time.monotonic() < deadline, f"not in time: {what}")
-        time.sleep(0.002)
+def started(words):
+    return started_masked(*words, preexec_fn=unmasked)
 
 
 def processes_of(folder):
@@ -107,12 +98,10 @@ def check_children(executable, here, data, run, folder):
 
 
 def main():
-    executable, here, data = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
-    scene, problem = here / "tiny-drum.toml", data / "problems" / "drum-300-mu-0.4-flow.h5"
-    with tempfile.TemporaryDirectory(prefix="drumlin-signals-") as name:
-        folder = pathlib.Path(name)
-        run = folder / "run"
-        Drumlin(executable)("run", scene, "-o", run, *SHORT_RUN)
+    with given() as (drumlin, here, data, folder):
+        executable, run = drumlin.executable, folder / "run"
+        scene, problem = here / "tiny-drum.toml", data / "problems" / "drum-300-mu-0.4-flow.h5"
+        drumlin("run", scene, "-o", run, *SHORT_RUN)
         check_signals(executable, scene, problem, run, folder)
         check_children(executable, here, data, run, folder)
 

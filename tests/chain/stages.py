@@ -5,14 +5,11 @@ usage: stages.py DRUMLIN FOLDER_OF_THIS_TEST
 
 import csv
 import math
-import pathlib
 import signal
-import sys
-import tempfile
 
 import h5py
 
-from command import Drumlin, read_json, require, results_of_run
+from command import given, read_json, require, results_of_run
 from interruption import stopped
 
 GRAVITY, DENSITY = 9.81, 2700
@@ -53,14 +50,12 @@ def gate_carries_the_weight(run, opened):
 
 
 def main():
-    executable, folder = sys.argv[1], pathlib.Path(sys.argv[2])
-    drumlin, scene = Drumlin(executable), folder / "tiny-gate.toml"
-    with tempfile.TemporaryDirectory(prefix="drumlin-stages-") as name:
-        there = pathlib.Path(name)
+    with given() as (drumlin, folder, there):
+        scene = folder / "tiny-gate.toml"
         drumlin("run", scene, "-o", there / "whole")
         gate_carries_the_weight(there / "whole", stages_end_as_they_say(there / "whole"))
         overrides = ["--set", "output.checkpoint_every_s=0.05", "--threads", "2"]
-        stopped(executable, scene, there / "again", signal.SIGINT, 130, overrides)
+        stopped(drumlin.executable, scene, there / "again", signal.SIGINT, 130, overrides)
         drumlin("run", scene, "-o", there / "again", "--resume", *overrides)
         require(results_of_run(there / "again") == results_of_run(there / "whole"), "interrupted: other bytes")
         drumlin("plot", there / "whole", "-o", there / "plots")

@@ -83,6 +83,13 @@ def require(condition, message):
         sys.exit(message)
 
 
+def called(command, code=0):
+    """What a command says that ends with this code."""
+    result = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=1200, check=False)
+    require(result.returncode == code, f"{command}: exit code {result.returncode} instead of {code}\n{result.stdout}{result.stderr}")
+    return result.stdout + result.stderr
+
+
 class Ranks:
     def __init__(self, program, mpirun):
         self.program, self.mpirun = program, mpirun
@@ -91,10 +98,7 @@ class Ranks:
         return [self.mpirun, "-n", str(ranks), self.program, *map(str, words)]
 
     def __call__(self, ranks, *words, code=0):
-        result = subprocess.run(self.words(ranks, *words), capture_output=True, text=True, timeout=1200, check=False)
-        require(result.returncode == code, f"{words} on {ranks} ranks: exit code {result.returncode} instead of {code}\n"
-                                           f"{result.stdout}{result.stderr}")
-        return result.stderr
+        return called(self.words(ranks, *words), code)
 
 
 def results(run):
@@ -110,15 +114,10 @@ def require_same(right, run, what):
     require(not differing, f"{what}: other bytes in {', '.join(differing)}")
 
 
-def alone(drumlin, *words):
-    result = subprocess.run([drumlin, "run", *map(str, words)], capture_output=True, text=True, timeout=1200, check=False)
-    require(result.returncode == 0, f"drumlin run {words}: exit code {result.returncode}\n{result.stdout}{result.stderr}")
-
-
 def same_on_all(run_on, drumlin, folder, name, text, ways):
     scene = folder / f"{name}.toml"
     scene.write_text(text, encoding="utf-8")
-    alone(drumlin, scene, "-o", folder / name, "--threads", 1)
+    called([drumlin, "run", scene, "-o", folder / name, "--threads", 1])
     right = results(folder / name)
     require(len(right) >= 4, f"{name}: not three snapshots and a log")
     for ranks, threads in ways:
@@ -194,30 +193,26 @@ def other_on_one(run_on, folder):
         (place / "law.toml").write_bytes(law.read_bytes())
     solver = [str(pathlib.Path(run_on.program).with_name("drumlin-flow")), "flow.toml", "--rheology", "law.toml", "-o", "out"]
     command = [run_on.mpirun, "-n", "1", "-wdir", str(there), *solver, ":", "-n", "1", "-wdir", str(elsewhere), *solver]
-    result = subprocess.run(command, capture_output=True, text=True, timeout=1200, check=False)
-    require(result.returncode == 2 and "are not those of rank 0" in result.stderr, f"another scene on rank 1: exit code {result.returncode}\n{result.stdout}{result.stderr}")
+    require("are not those of rank 0" in called(command, 2), "another scene on rank 1")
     require(not (there / "out").exists() and not (elsewhere / "out").exists(), "another scene on rank 1: results were begun")
 
 
 def started_by_drumlin(run_on, drumlin, folder, scene, right):
     """`drumlin run --ranks` leaves the bytes of mpirun's call, and ends as the job ends."""
-    def start(*words, code):
-        result = subprocess.run([drumlin, "run", *map(str, words)], capture_output=True, text=True, timeout=1200, check=False)
-        require(result.returncode == code, f"drumlin run {words}: exit code {result.returncode} instead of {code}\n"
-                                           f"{result.stdout}{result.stderr}")
-        return result.stdout + result.stderr
+    def start(*words, code=0):
+        return called([drumlin, "run", *words], code)
 
-    start(scene, "-o", folder / "started", "--ranks", 2, code=0)
+    start(scene, "-o", folder / "started", "--ranks", 2)
     require_same(right, folder / "started", "drumlin run --ranks 2")
-    said = start(scene, "-o", folder / "started", "--resume", code=0)
+    said = start(scene, "-o", folder / "started", "--resume")
     require("already finished" in said, f"a finished run of ranks, resumed in one process, said\n{said}")
     said = start(scene, "-o", folder / "started", "--ranks", 2, code=2)
     require(str(folder / "started") in said, f"a folder that is taken, said\n{said}")
     said = run_on(1, scene, "-o", folder / "twice", "--ranks", 2, code=2)
     require("--ranks" in said and not (folder / "twice").exists(), f"--ranks on ranks, said\n{said}")
-    start(folder / "started" / "scene.toml", "-o", folder / "started", "--extend", 0.02, "--ranks", 2, code=0)
-    start(scene, "-o", folder / "longer", code=0)
-    start(folder / "longer" / "scene.toml", "-o", folder / "longer", "--extend", 0.02, code=0)
+    start(folder / "started" / "scene.toml", "-o", folder / "started", "--extend", 0.02, "--ranks", 2)
+    start(scene, "-o", folder / "longer")
+    start(folder / "longer" / "scene.toml", "-o", folder / "longer", "--extend", 0.02)
     require_same(results(folder / "longer"), folder / "started", "prolonged on 2 ranks")
     run = folder / "told-to-end"
     with subprocess.Popen([drumlin, "run", scene, "-o", run, "--ranks", "2"], stdout=subprocess.DEVNULL,
@@ -226,7 +221,7 @@ def started_by_drumlin(run_on, drumlin, folder, scene, right):
         job.send_signal(signal.SIGTERM)
         _, said = job.communicate(timeout=300)
     require(job.returncode == 143, f"told to end: exit code {job.returncode} instead of 143, said\n{said}")
-    start(scene, "-o", run, "--ranks", 3, "--resume", code=0)
+    start(scene, "-o", run, "--ranks", 3, "--resume")
     require_same(right, run, "told to end on 2 ranks, finished by 3")
 
 
