@@ -25,14 +25,6 @@ const MemoryLaw law{.c = 6,
                     .mu = {{1e-6, 1}, {0.31 + 0.011 * std::log(1e-6), 0.31}},
                     .amount = AmountMemory{.swelling = 0.008, .c_nu = 4, .c_psi = 16, .lag = 0.05}};
 
-StressPath steady_shear(std::size_t steps, double strain, double ln_I) {
-  StressPath path;
-  path.axis = Deviator(0, 1);
-  path.ln_I = ln_I;
-  path.steps.assign(steps, {strain, strain, path.axis, ln_I});  // W = |D|
-  return path;
-}
-
 TEST(AmountMemory, AddsNothingInSteadySimpleShear) {
   for (const double I : {1e-5, 1e-3, 0.03, 0.5})
     EXPECT_NEAR(added_amount(steady_shear(400, 0.01, std::log(I)), law), 0, 1e-12) << I;

@@ -14,15 +14,6 @@ using namespace coupling;
 using namespace testing;
 namespace {
 
-StressPath steady_shear(std::size_t steps, double strain, double ln_I) {
-  StressPath path;
-  path.axis = Deviator(0, 1);
-  path.ln_I = ln_I;
-  // In simple shear W = |D|.
-  path.steps.assign(steps, {strain, strain, path.axis, ln_I});
-  return path;
-}
-
 TEST(AxisMemory, SteadySimpleShearHasItsClosedForm) {
   const AxisMemory law{.c = 5, .m = 0.8, .chi = 0.7};
   const double phi = std::atan(1 / law.c);

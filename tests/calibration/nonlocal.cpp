@@ -6,7 +6,6 @@
 #include "coupling/calibration/memory_fit.hpp"
 #include "coupling/calibration/nonlocal_fit.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/law/rheology_file.hpp"
 #include "tests/calibration/remembering_drum.hpp"
 #include "tests/support/says.hpp"
 
@@ -96,20 +95,6 @@ TEST(NonlocalFit, RunsWithoutABedAreRefused) {
   FluidityOfRun run = obeying_points(0, 5);
   for (FluidityPoint& point : run.points) point.I = 0.01;
   EXPECT_THROW((void)fit_nonlocal({&run, 1}, known_amount_table()), InputError);
-}
-
-TEST(NonlocalFit, TheLawsFileKeepsIt) {
-  RheologyFit fit;
-  fit.mu = LogFriction{0.35, 0.013, {0, 0, 0}, 1e-4, 0.1};
-  fit.nu = 0.8;
-  fit.fitted_on = {"run"};
-  fit.nonlocal = NonlocalLength{0.5, 0.25, 0.1, {}};
-  const RheologyFit again = parse_rheology(rheology_text(fit), "law.toml");
-  ASSERT_TRUE(again.nonlocal);
-  EXPECT_EQ(again.nonlocal->amplitude, 0.5);
-  EXPECT_EQ(again.nonlocal->mu_s, 0.25);
-  EXPECT_EQ(again.nonlocal->amplitude_ci99, 0.1);
-  EXPECT_FALSE(again.nonlocal->mu_s_ci99);
 }
 
 }  // namespace

@@ -162,13 +162,6 @@ TEST(SignOfK, IsThatOfTheTensorsFromTheMapToTheStressOfTheFlow) {
   }
 }
 
-TEST(SignOfK, BelowOneTurnsTheStressToTheSideOfANegativeAngle) {
-  const RheologyFit fit = calibrated_on(0, 0).rheology;
-  const StressRatioLaw k = stress_ratio_law(*fit.k);
-  EXPECT_LT(k.at_ln(std::log(4e-4)).value, 1);
-  EXPECT_GT(k.at_ln(std::log(2e-2)).value, 1);
-}
-
 TEST(SignOfK, SurvivesNoise) {
   const RheologyFit fit = calibrated_on(0.2, 0.05).rheology;
   const StressRatioLaw k = stress_ratio_law(*fit.k);

@@ -21,6 +21,15 @@ inline double known_amount(double I) { return 0.31 + 0.011 * std::log(I); }
 
 inline const coupling::AxisMemory known_memory{.c = 6, .m = 0.9, .chi = 0.6, .I_low = 1e-2, .I_high = 1e-1};
 
+/// Steps of simple shear, where W = |D|.
+inline coupling::StressPath steady_shear(std::size_t steps, double strain, double ln_I) {
+  coupling::StressPath path;
+  path.axis = coupling::Deviator(0, 1);
+  path.ln_I = ln_I;
+  path.steps.assign(steps, {strain, strain, path.axis, ln_I});
+  return path;
+}
+
 /// Motion and an isotropic pressure; incompressible.
 inline FieldMap moving_drum(const RememberingDrum& drum) {
   FieldMap map;
