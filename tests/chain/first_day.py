@@ -92,7 +92,7 @@ def reports(drumlin, folder):
 
 def completes(drumlin):
     script, _ = drumlin("--completion", "bash")
-    _, refused = drumlin("--completion", "fish", code=2)
+    _, refused = drumlin("--completion", "tcsh", code=2)
     require("bash" in refused, refused)
 
     def offered(*words):
