@@ -27,8 +27,8 @@ def read_grains(path, theta_deg, axis_depth):
     """
     with h5py.File(path) as snapshot:
         grains = {name: snapshot["grains/" + name][:] for name in ("x", "z", "v_x", "v_z", "radius")}
-        spin = snapshot["wall/spin"][0]
-        x, z = grains["x"] - snapshot["container/x"][0], grains["z"] - snapshot["container/z"][0]
+        spin = result_files.number_of(snapshot["wall/spin"])
+        x, z = grains["x"] - result_files.number_of(snapshot["container/x"]), grains["z"] - result_files.number_of(snapshot["container/z"])
     speed = np.hypot(grains["v_x"] - spin * z, grains["v_z"] + spin * x)
     if spin < 0:  # an anticlockwise drum is looked at in a mirror
         x = -x

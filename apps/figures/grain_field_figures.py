@@ -10,6 +10,7 @@ import numpy as np
 
 import script
 import style
+from result_files import number_of
 
 LONG_SIDE = 8.0  # inches of the longer side of one map
 LEAST_SHARE = 1e-3  # pressures below this share of the largest are drawn as none
@@ -22,10 +23,10 @@ class Fields:
     def __init__(self, path):
         with h5py.File(path) as stored:
             self.of = {name: values[:] for name, values in stored["grains"].items()}
-            self.radius = stored["container/radius"][0]
-            self.axis_z = stored["container/z"][0]
-            self.period = stored["period_x"][0]
-            self.time_s = stored["time"][0] * stored["scales/time_s"][0]
+            self.radius = number_of(stored["container/radius"])
+            self.axis_z = number_of(stored["container/z"])
+            self.period = number_of(stored["period_x"])
+            self.time_s = number_of(stored["time"]) * number_of(stored["scales/time_s"])
         self.x, self.z = self.of["x"], self.of["z"]
         if self.period > 0:
             self.x = np.mod(self.x, self.period)

@@ -14,6 +14,7 @@ from matplotlib.animation import PillowWriter
 import grain_colours
 import style
 import whole_file
+from result_files import number_of
 
 LONG_SIDE = 8.0  # inches of the longer side of a map
 SHORT_SIDE = 2.0  # least inches of the shorter one
@@ -46,17 +47,17 @@ class Grains:
             self.spin = snapshot["grains/spin"][:] if "grains/spin" in snapshot else None
             if not len(self.x):  # the snapshot does not say whether grains would spin
                 self.spin = np.zeros(0)
-            self.drum_spin = snapshot["wall/spin"][0] if snapshot["container/radius"][0] > 0 else 0.0
-            self.center = center = snapshot["container/x"][0], snapshot["container/z"][0]
-            self.container_radius, self.wall_angle = snapshot["container/radius"][0], snapshot["wall/angle"][0]
+            self.drum_spin = number_of(snapshot["wall/spin"]) if number_of(snapshot["container/radius"]) > 0 else 0.0
+            self.center = center = number_of(snapshot["container/x"]), number_of(snapshot["container/z"])
+            self.container_radius, self.wall_angle = number_of(snapshot["container/radius"]), number_of(snapshot["wall/angle"])
             self.contacts = {name: snapshot["contacts/" + name][:] for name in ("i", "j", "normal_x", "normal_z")}
-            self.force = snapshot["contacts/impulse_n"][:] / snapshot["time_step"][0]
+            self.force = snapshot["contacts/impulse_n"][:] / number_of(snapshot["time_step"])
             # Lower left and upper right corner of a cell that is periodic in x and z, and what the image above is displaced by.
             self.cell = self.offset = None
             if "cell" in snapshot:
-                corner = np.array([snapshot["cell/x"][0], snapshot["cell/z"][0]])
-                self.cell = corner, corner + [snapshot["period_x"][0], snapshot["cell/height"][0]]
-                self.offset = snapshot["cell/offset"][0]
+                corner = np.array([number_of(snapshot["cell/x"]), number_of(snapshot["cell/z"])])
+                self.cell = corner, corner + [number_of(snapshot["period_x"]), number_of(snapshot["cell/height"])]
+                self.offset = number_of(snapshot["cell/offset"])
         # What numbers each grain for a colour by id or by material.
         self.id = grain_colours.id_of(frame["file"], len(self.x))
         materials = frame.get("materials")

@@ -14,6 +14,7 @@ import numpy as np
 import script
 import style
 from compare_figures import names_of
+from result_files import number_of
 
 COLOURS = {"particles": style.PARTICLES, "continuum": style.CONTINUUM}
 WIDE = 1.2  # of a picture, over the height of its layer
@@ -69,7 +70,7 @@ def read_grains(path, base):
     """Centres over the period and above the lowest layer, radii and speeds of a snapshot of a periodic domain."""
     with h5py.File(path) as snapshot:
         grains = {name: snapshot["grains/" + name][:] for name in ("x", "z", "v_x", "v_z", "radius")}
-        period = snapshot["period_x"][0]
+        period = number_of(snapshot["period_x"])
     return {"x": np.mod(grains["x"], period), "z": grains["z"] - (grains["z"] - grains["radius"]).min() + base, "radius": grains["radius"],
             "speed": np.hypot(grains["v_x"], grains["v_z"]), "period": period}
 

@@ -11,8 +11,13 @@ import numpy as np
 
 
 def text_of(data):
-    """The text of an HDF5 dataset of bytes."""
+    """The text of an HDF5 dataset: a string or, in older files, bytes."""
     return bytes(np.asarray(data[()]).reshape(-1)).decode().rstrip("\0")
+
+
+def number_of(data):
+    """The number of an HDF5 dataset: a scalar or, in older files, an array of one."""
+    return data[()].item()
 
 
 def read_table(path, kind=None):
@@ -77,16 +82,16 @@ def read_snapshot(path):
     """Numbers and arrays of a snapshot by name: grains, contacts with their forces, the frame. Units of the run: d, sqrt(d/g), rho0 d^2."""
     with h5py.File(path) as stored:
         result = {name: stored["grains/" + name][:] for name in stored["grains"]}
-        result.update(time=stored["time"][0], gravity=np.array([stored["gravity_x"][0], stored["gravity_z"][0]]),
-                      period=stored["period_x"][0], window=stored["velocity_window"][0])
+        result.update(time=number_of(stored["time"]), gravity=np.array([number_of(stored["gravity_x"]), number_of(stored["gravity_z"])]),
+                      period=number_of(stored["period_x"]), window=number_of(stored["velocity_window"]))
         if "contacts" in stored:
-            result.update(contact_forces({name: values[:] for name, values in stored["contacts"].items()}, stored["time_step"][0]))
+            result.update(contact_forces({name: values[:] for name, values in stored["contacts"].items()}, number_of(stored["time_step"])))
         if "cell" in stored:
-            result["cell"] = {name: stored["cell/" + name][0] for name in stored["cell"]}
+            result["cell"] = {name: number_of(stored["cell/" + name]) for name in stored["cell"]}
         if "walls/x" in stored:
             result["walls"] = np.array([stored["walls/x"][:], stored["walls/z"][:]]).T
         if "scales" in stored:
-            result["scales"] = {name: stored["scales/" + name][0] for name in stored["scales"]}
+            result["scales"] = {name: number_of(stored["scales/" + name]) for name in stored["scales"]}
     # A stored mass stands for itself: a density of the grain's own.
     result.setdefault("mass", math.pi * result["radius"] ** 2)
     return result
@@ -96,5 +101,9 @@ def read_arrays(path):
     """Every dataset of an HDF5 file by its path, and the format of the file."""
     arrays = {}
     with h5py.File(path) as file:
-        file.visititems(lambda name, entry: arrays.update({name: entry[()]}) if isinstance(entry, h5py.Dataset) else None)
+        def add(name, entry):
+            if isinstance(entry, h5py.Dataset):
+                arrays[name] = text_of(entry) if entry.dtype.kind == "S" else entry[()]
+
+        file.visititems(add)
         return (text_of(file["format"]) if "format" in file else ""), arrays

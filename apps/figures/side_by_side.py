@@ -20,6 +20,7 @@ import player_pack
 import script
 import whole_file
 from drum_maps import read_maps
+from result_files import number_of
 
 STRIPES = (-0.5, 0.0, 0.5)  # of the radius of the drum: where upright stripes of grains are marked
 STRIPE_WIDTH = 3.0  # d
@@ -35,11 +36,11 @@ class Frame:
     def __init__(self, file):
         with h5py.File(file) as snapshot:
             x, self.z, v_x, v_z, self.radius = (snapshot["grains/" + name][:] for name in ("x", "z", "v_x", "v_z", "radius"))
-            spin, angle = snapshot["wall/spin"][0], snapshot["wall/angle"][0]
-            middle = snapshot["container/x"][0], snapshot["container/z"][0]
-            self.container_radius = float(snapshot["container/radius"][0])
-            self.time, self.time_s = float(snapshot["time"][0]), float(snapshot["time"][0] * snapshot["scales/time_s"][0])
-            self.scales = {name: float(snapshot["scales/" + name][0]) for name in ("length_m", "time_s", "density_kg_m3")}
+            spin, angle = number_of(snapshot["wall/spin"]), number_of(snapshot["wall/angle"])
+            middle = number_of(snapshot["container/x"]), number_of(snapshot["container/z"])
+            self.container_radius = number_of(snapshot["container/radius"])
+            self.time, self.time_s = number_of(snapshot["time"]), number_of(snapshot["time"]) * number_of(snapshot["scales/time_s"])
+            self.scales = {name: number_of(snapshot["scales/" + name]) for name in ("length_m", "time_s", "density_kg_m3")}
         sign = -1.0 if spin < 0 else 1.0
         self.x, self.z = sign * (x - middle[0]), self.z - middle[1]
         self.spin, self.wall_angle, self.center = abs(spin), sign * angle, (0.0, 0.0)

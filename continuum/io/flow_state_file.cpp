@@ -21,11 +21,14 @@ bool all_finite(const std::vector<double>& values) {
 void put(const FlowState& state, H5Writer& out) {
   std::vector<std::int64_t> cells;
   for (const CellPlace& place : state.cells) cells.insert(cells.end(), place.begin(), place.end());
-  out.add_number("theta", state.theta);
-  out.add("cells", std::span<const std::int64_t>(cells));
-  if (!state.surface.empty()) out.add_table("surface", state.surface, 1);
-  out.add_table("centres", state.centres, 2);
-  out.add_table("values", state.values, FlowState::values_per_cell);
+  out.add_number("theta", state.theta, {"rad", "slope"});
+  out.add("cells", cells, {"1", "four numbers per cell, deal.II's CellId"});
+  if (!state.surface.empty())
+    out.add_table("surface", state.surface, 1, {"d", "Chebyshev coefficients of its height"});
+  out.add_table("centres", state.centres, 2, {"d", "middles of the cells, along x and z"});
+  out.add_table(
+      "values", state.values, FlowState::values_per_cell,
+      {"sqrt(g d), rho0 g d", "two velocities at nine points, then pressure at four, of each cell"});
 }
 
 FlowState state_in(const H5Reader& in) {
@@ -52,12 +55,6 @@ FlowState state_in(const H5Reader& in) {
   return state;
 }
 
-void require_format(const H5Reader& in, const std::string& format) {
-  if (!in.has("format") || in.text("format") != format)
-    in.refuse("format",
-              in.has("format") ? "'" + in.text("format") + "', this version reads " + format : "missing");
-}
-
 }  // namespace
 
 void write_flow_state(const std::filesystem::path& file, const FlowState& state) {
@@ -72,7 +69,7 @@ FlowState read_flow_state(const std::filesystem::path& flow_run) {
   if (!std::filesystem::exists(file))
     throw InputError(flow_run.string() + ": holds no state.h5 to start from: no finished flow");
   const H5Reader in(file);
-  require_format(in, state_format);
+  in.require_format(state_format);
   return state_in(in);
 }
 
@@ -80,7 +77,8 @@ void keep_flow_checkpoint(const std::filesystem::path& flow_run, const FlowCheck
   H5Writer out;
   out.add_text("format", checkpoint_format);
   out.add_number("steps", static_cast<std::int64_t>(checkpoint.at.steps));
-  out.add_number("start_share", checkpoint.at.start_share);
+  out.add_number("start_share", checkpoint.at.start_share,
+                 {"1", "speed of rotation at the start over that of the scene"});
   out.add_text("scene", checkpoint.scene);
   out.add_text("law", checkpoint.law);
   put(checkpoint.at.state, out);
@@ -90,7 +88,7 @@ void keep_flow_checkpoint(const std::filesystem::path& flow_run, const FlowCheck
 FlowCheckpoint read_flow_checkpoint(const std::filesystem::path& file) {
   constexpr std::int64_t most_steps = std::numeric_limits<int>::max();
   const H5Reader in(file);
-  require_format(in, checkpoint_format);
+  in.require_format(checkpoint_format);
   FlowCheckpoint checkpoint{.at = {.state = state_in(in),
                                    .steps = static_cast<int>(in.integer("steps", 1, most_steps)),
                                    .start_share = in.number("start_share")},

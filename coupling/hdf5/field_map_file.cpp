@@ -8,6 +8,7 @@
 #include "coupling/common/errors.hpp"
 #include "coupling/hdf5/h5_reader.hpp"
 #include "coupling/hdf5/h5_writer.hpp"
+#include "coupling/results/quantities.hpp"
 
 namespace drumlin {
 namespace {
@@ -61,23 +62,24 @@ void add_outline(const FieldMap& map, H5Content& out) {
   out.add_text("format", format);
   out.add_text("header", header_lines(map.header, ""));
   out.add_text("names", names);
-  out.add_number("scales/length_m", map.scales.length_m);
-  out.add_number("scales/time_s", map.scales.time_s);
-  out.add_number("scales/density_kg_m3", map.scales.density_kg_m3);
-  out.add("x", std::span<const double>(x));
-  out.add("z", std::span<const double>(z));
+  out.add_scales(map.scales);
+  out.add("x", x, {"d", "nodes along x"});
+  out.add("z", z, {"d", "nodes along z"});
 }
 
 void refuse_faults(const std::filesystem::path& file, const FieldMap& map) {
   if (const std::string fault = fault_of(map); !fault.empty()) throw InputError(file.string() + ": " + fault);
 }
 
-/// Calls action(name, values, bits when packed) for all datasets of the fields, in their order.
+/// Calls action(name, values, words, bits when packed) for all datasets of the fields, in their order.
 template <class Action>
 void each_set(const std::vector<MapField>& fields, Action action) {
   for (const MapField& field : fields) {
-    action("fields/" + field.name, field.value, packed_value_bits);
-    if (!field.ci99.empty()) action("ci99/" + field.name, field.ci99, packed_interval_bits);
+    const auto [unit, meaning] = quantity_words(field.name);
+    action("fields/" + field.name, field.value, H5Words{unit, meaning}, packed_value_bits);
+    const std::string half_width = meaning.empty() ? "" : "half width of the 99 % interval of " + meaning;
+    if (!field.ci99.empty())
+      action("ci99/" + field.name, field.ci99, H5Words{unit, half_width}, packed_interval_bits);
   }
 }
 
@@ -87,12 +89,13 @@ void write_field_map(const std::filesystem::path& file, const FieldMap& map, Map
   refuse_faults(file, map);
   H5Writer out;
   add_outline(map, out);
-  each_set(map.fields, [&](const std::string& name, const std::vector<double>& values, int bits) {
-    if (storage == MapStorage::whole)
-      out.add_table(name, values, map.grid.columns);
-    else
-      out.add_packed_table(name, values, map.grid.columns, bits);
-  });
+  each_set(map.fields,
+           [&](const std::string& name, const std::vector<double>& values, H5Words words, int bits) {
+             if (storage == MapStorage::whole)
+               out.add_table(name, values, map.grid.columns, words);
+             else
+               out.add_packed_table(name, values, map.grid.columns, bits, words);
+           });
   out.save(file);
 }
 
@@ -109,9 +112,9 @@ void FieldMapWriter::add(const std::vector<MapField>& fields) {
     for (const MapField& field : fields) outline_.fields.push_back({field.name, {}, {}});
     add_outline(outline_, out_);
   }
-  each_set(fields, [&](const std::string& name, const std::vector<double>& values, int) {
+  each_set(fields, [&](const std::string& name, const std::vector<double>& values, H5Words words, int) {
     if (rows_ == 0)
-      out_.begin_table(name, values, outline_.grid.rows, outline_.grid.columns);
+      out_.begin_table(name, values, outline_.grid.rows, outline_.grid.columns, words);
     else
       out_.add_rows(name, rows_, values);
   });
@@ -127,12 +130,10 @@ void FieldMapWriter::save() {
 
 FieldMap read_field_map(const std::filesystem::path& file) {
   const H5Reader in(file);
-  if (!in.has("format") || in.text("format") != format)
-    in.refuse("format",
-              in.has("format") ? "'" + in.text("format") + "', this version reads " + format : "missing");
+  in.require_format(format);
   FieldMap map;
   map.header = header(in, file);
-  map.scales = {in.number("scales/length_m"), in.number("scales/time_s"), in.number("scales/density_kg_m3")};
+  map.scales = in.scales();
   const std::vector<double> x = in.doubles("x"), z = in.doubles("z");
   std::tie(map.grid.x_first, map.grid.spacing_x) = axis(in, "x", x);
   std::tie(map.grid.z_first, map.grid.spacing_z) = axis(in, "z", z);

@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "coupling/common/errors.hpp"
 #include "coupling/common/files/input_file.hpp"
@@ -96,6 +97,9 @@ std::vector<std::size_t> H5Reader::shape(const std::string& name) const {
 
 namespace {
 
+bool is_fixed_text(hid_t type) { return H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0; }
+
+/// Of a fixed string, or the bytes that older files have in its place, T is char.
 template <class T>
 std::vector<T> read_set(const H5Reader& reader, hid_t file, const std::string& name, hid_t type,
                         H5T_class_t wanted) {
@@ -104,13 +108,15 @@ std::vector<T> read_set(const H5Reader& reader, hid_t file, const std::string& n
   if (!set.valid()) reader.refuse(name, "not a dataset");
   const H5Id stored(H5Dget_type(set.get()), H5Tclose);
   const H5T_class_t found = H5Tget_class(stored.get());
-  if (found != wanted && !(wanted == H5T_FLOAT && found == H5T_INTEGER))
+  const bool words = std::is_same_v<T, char> && is_fixed_text(stored.get());
+  if (found != wanted && !(wanted == H5T_FLOAT && found == H5T_INTEGER) && !words)
     reader.refuse(name, "of an unexpected type");
   const H5Id space(H5Dget_space(set.get()), H5Sclose);
   const hssize_t count = H5Sget_simple_extent_npoints(space.get());
   if (const char* fault = storage_fault(set.get(), stored.get(), count)) reader.refuse(name, fault);
-  std::vector<T> values(static_cast<std::size_t>(count));
-  if (count > 0 && H5Dread(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+  std::vector<T> values(static_cast<std::size_t>(count) * (words ? H5Tget_size(stored.get()) : 1));
+  if (count > 0 &&
+      H5Dread(set.get(), words ? stored.get() : type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     reader.refuse(name, "unreadable");
   return values;
 }
@@ -157,10 +163,19 @@ std::vector<std::int32_t> H5Reader::ints(const std::string& name, std::int32_t l
   for (const std::int32_t value : values) refuse_outside(*this, name, value, low, high);
   return values;
 }
+Scales H5Reader::scales() const {
+  return {number("scales/length_m"), number("scales/time_s"), number("scales/density_kg_m3")};
+}
 std::string H5Reader::text(const std::string& name) const {
-  const auto bytes =
-      read_set<unsigned char>(*this, handles_->file->get(), name, H5T_NATIVE_UINT8, H5T_INTEGER);
-  return {bytes.begin(), bytes.end()};
+  const auto bytes = read_set<char>(*this, handles_->file->get(), name, H5T_NATIVE_UINT8, H5T_INTEGER);
+  const std::string text(bytes.begin(), bytes.end());
+  return text.substr(0, text.find_last_not_of('\0') + 1);
+}
+
+void H5Reader::require_format(const std::string& format, const std::string& otherwise) const {
+  if (!has("format")) refuse("format", "missing");
+  if (const std::string found = text("format"); found != format)
+    refuse("format", "'" + found + "', this version reads " + format + otherwise);
 }
 
 namespace {
@@ -178,8 +193,7 @@ const char* fault_of_object(hid_t file, const std::string& name) {
   if (object != H5I_DATASET) return "not a dataset";
   const H5Id type(H5Dget_type(set.get()), H5Tclose), space(H5Dget_space(set.get()), H5Sclose);
   const H5T_class_t kind = H5Tget_class(type.get());
-  const bool words = kind == H5T_STRING && H5Tis_variable_str(type.get()) == 0;
-  if (kind != H5T_INTEGER && kind != H5T_FLOAT && !words) return "of an unexpected type";
+  if (kind != H5T_INTEGER && kind != H5T_FLOAT && !is_fixed_text(type.get())) return "of an unexpected type";
   return storage_fault(set.get(), type.get(), H5Sget_simple_extent_npoints(space.get()));
 }
 

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "coupling/common/scales.hpp"
+
 namespace drumlin {
 
 /// An HDF5 file opened for reading. Every member throws InputError naming the file when something is missing
@@ -35,7 +37,10 @@ class H5Reader {
   std::int64_t integer(const std::string& name, std::int64_t low,
                        std::int64_t high = std::numeric_limits<std::int64_t>::max()) const;
   std::vector<std::int32_t> ints(const std::string& name, std::int32_t low, std::int32_t high) const;
+  Scales scales() const;
   std::string text(const std::string& name) const;
+  /// Throws unless the text "format" is this one; `otherwise`: what to do then.
+  void require_format(const std::string& format, const std::string& otherwise = "") const;
   /// Throws where a link leads elsewhere, or a dataset cannot be read: for all of the file.
   void require_readable() const;
   [[noreturn]] void refuse(const std::string& name, const std::string& what,

@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <type_traits>
 #include <utility>
 
@@ -66,35 +67,81 @@ void write_rows(hid_t set, hid_t memory_type, const void* data, hsize_t first, h
            "write rows of a dataset");
 }
 
-/// A dataset of a type and shape, and the groups on the way to it.
-H5Id create_set(hid_t file, const std::string& name, hid_t file_type, std::initializer_list<hsize_t> shape,
-                bool packed) {
-  const H5Id links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  check_h5(H5Pset_create_intermediate_group(links.get(), 1) >= 0, "create a group");
-  const H5Id space(H5Screate_simple(static_cast<int>(shape.size()), std::data(shape), nullptr), H5Sclose);
-  // No object times: the same state gives the same bytes.
-  const H5Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  check_h5(H5Pset_obj_track_times(creation.get(), false) >= 0, "leave out times");
-  if (packed) pack(creation.get(), shape);
+/// A string of so many bytes; made once, it stays.
+hid_t text_type(std::size_t bytes) {
+  static std::map<std::size_t, hid_t> types;
+  if (const auto known = types.find(bytes); known != types.end()) return known->second;
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  check_h5(H5Tset_size(type, bytes) >= 0 && H5Tset_strpad(type, H5T_STR_NULLPAD) >= 0 &&
+               H5Tset_cset(type, H5T_CSET_UTF8) >= 0,
+           "prepare a text");
+  return types[bytes] = type;
+}
+
+/// What all datasets have in common, made once: groups on the way to them are made too, and there are no
+/// object times, for the same state gives the same bytes.
+struct Common {
+  hid_t links = H5Pcreate(H5P_LINK_CREATE), creation = H5Pcreate(H5P_DATASET_CREATE),
+        scalar = H5Screate(H5S_SCALAR);
+  Common() {
+    check_h5(H5Pset_create_intermediate_group(links, 1) >= 0 &&
+                 H5Pset_obj_track_times(creation, false) >= 0 && scalar >= 0,
+             "prepare datasets");
+  }
+};
+const Common& common() {
+  static const Common made;  // stays, as the library does
+  return made;
+}
+
+void describe(hid_t set, H5Words words) {
+  if (words.description.empty()) return;
+  for (const auto& [key, text] : {std::pair("unit", words.unit), {"description", words.description}}) {
+    const hid_t type = text_type(text.size());
+    const H5Id attribute(H5Acreate2(set, key, type, common().scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    check_h5(attribute.valid() && H5Awrite(attribute.get(), type, text.data()) >= 0, "describe a dataset");
+  }
+}
+
+/// What a dataset is made of. Without lengths it is a single number or text.
+struct Layout {
+  hid_t type;
+  std::initializer_list<hsize_t> shape;
+  H5Words words = {};
+  bool packed = false;
+};
+
+/// A dataset and the groups on the way to it.
+H5Id create_set(hid_t file, const std::string& name, const Layout& layout) {
+  const auto& shape = layout.shape;
+  const bool single = shape.size() == 0;
+  const H5Id space(single ? -1 : H5Screate_simple(static_cast<int>(shape.size()), std::data(shape), nullptr),
+                   H5Sclose);
+  const H5Id packing(layout.packed ? H5Pcopy(common().creation) : -1, H5Pclose);
+  if (layout.packed) pack(packing.get(), shape);
   const hid_t set =
-      H5Dcreate2(file, name.c_str(), file_type, space.get(), links.get(), creation.get(), H5P_DEFAULT);
+      H5Dcreate2(file, name.c_str(), layout.type, single ? common().scalar : space.get(), common().links,
+                 layout.packed ? packing.get() : common().creation, H5P_DEFAULT);
   check_h5(set >= 0, "create a dataset");
+  describe(set, layout.words);
   return {set, H5Dclose};
 }
 
 /// `rows`: of a table, that `data` holds; all of them unless told.
-void put(hid_t file, const std::string& name, hid_t memory_type, hid_t file_type, const void* data,
-         std::initializer_list<hsize_t> shape, bool packed = false, hsize_t rows = all_rows) {
-  const H5Id set = create_set(file, name, file_type, shape, packed);
-  if (std::find(shape.begin(), shape.end(), hsize_t{0}) != shape.end()) return;
+void put(hid_t file, const std::string& name, const void* data, const Layout& layout,
+         hsize_t rows = all_rows) {
+  const H5Id set = create_set(file, name, layout);
+  if (std::find(layout.shape.begin(), layout.shape.end(), hsize_t{0}) != layout.shape.end()) return;
   if (rows != all_rows)
-    write_rows(set.get(), memory_type, data, 0, rows);
+    write_rows(set.get(), layout.type, data, 0, rows);
   else
-    check_h5(H5Dwrite(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, "write a dataset");
+    check_h5(H5Dwrite(set.get(), layout.type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, "write a dataset");
 }
 
+// Files hold low bytes first, as memory does.
+static_assert(std::endian::native == std::endian::little);
 template <class T>
-hid_t file_type_of() {
+hid_t type_of() {
   if constexpr (std::is_same_v<T, double>)
     return H5T_IEEE_F64LE;
   else if constexpr (std::is_same_v<T, float>)
@@ -120,37 +167,40 @@ struct H5Content::Handles {
 H5Content::H5Content(std::unique_ptr<Handles> handles) : handles_(std::move(handles)) {}
 H5Content::~H5Content() = default;
 
-void H5Content::add(const std::string& name, std::span<const double> values) {
-  put(handles_->file->get(), name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values.data(), {values.size()});
+template <class T>
+void H5Content::add(const std::string& name, std::span<const T> values, H5Words words) {
+  put(handles_->file->get(), name, values.data(), {type_of<T>(), {values.size()}, words});
 }
-void H5Content::add(const std::string& name, std::span<const float> values) {
-  put(handles_->file->get(), name, H5T_NATIVE_FLOAT, H5T_IEEE_F32LE, values.data(), {values.size()});
-}
-void H5Content::add(const std::string& name, std::span<const std::int32_t> values) {
-  put(handles_->file->get(), name, H5T_NATIVE_INT32, H5T_STD_I32LE, values.data(), {values.size()});
-}
-void H5Content::add(const std::string& name, std::span<const std::int64_t> values) {
-  put(handles_->file->get(), name, H5T_NATIVE_INT64, H5T_STD_I64LE, values.data(), {values.size()});
-}
-void H5Content::add_table(const std::string& name, std::span<const double> values, std::size_t columns) {
-  put(handles_->file->get(), name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values.data(),
-      {values.size() / columns, columns});
+template void H5Content::add(const std::string&, std::span<const double>, H5Words);
+template void H5Content::add(const std::string&, std::span<const float>, H5Words);
+template void H5Content::add(const std::string&, std::span<const std::int32_t>, H5Words);
+template void H5Content::add(const std::string&, std::span<const std::int64_t>, H5Words);
+
+void H5Content::add_table(const std::string& name, std::span<const double> values, std::size_t columns,
+                          H5Words words) {
+  put(handles_->file->get(), name, values.data(),
+      {type_of<double>(), {values.size() / columns, columns}, words});
 }
 void H5Content::add_packed_table(const std::string& name, std::span<const double> values, std::size_t columns,
-                                 int bits) {
+                                 int bits, H5Words words) {
   std::vector<float> rounded;
   for (const double value : values) rounded.push_back(rounded_to(static_cast<float>(value), bits));
-  put(handles_->file->get(), name, H5T_NATIVE_FLOAT, H5T_IEEE_F32LE, rounded.data(),
-      {values.size() / columns, columns}, !values.empty());
+  put(handles_->file->get(), name, rounded.data(),
+      {type_of<float>(), {values.size() / columns, columns}, words, !values.empty()});
 }
-void H5Content::add_number(const std::string& name, double value) {
-  add(name, std::span<const double>(&value, 1));
+void H5Content::add_number(const std::string& name, double value, H5Words words) {
+  put(handles_->file->get(), name, &value, {type_of<double>(), {}, words});
 }
-void H5Content::add_number(const std::string& name, std::int64_t value) {
-  add(name, std::span<const std::int64_t>(&value, 1));
+void H5Content::add_number(const std::string& name, std::int64_t value, H5Words words) {
+  put(handles_->file->get(), name, &value, {type_of<std::int64_t>(), {}, words});
+}
+void H5Content::add_scales(const Scales& scales) {
+  add_number("scales/length_m", scales.length_m, {"m", "one unit of length, d"});
+  add_number("scales/time_s", scales.time_s, {"s", "one unit of time, sqrt(d/g)"});
+  add_number("scales/density_kg_m3", scales.density_kg_m3, {"kg/m3", "one unit of density, rho0"});
 }
 void H5Content::add_text(const std::string& name, const std::string& text) {
-  put(handles_->file->get(), name, H5T_NATIVE_UINT8, H5T_STD_U8LE, text.data(), {text.size()});
+  put(handles_->file->get(), name, text.c_str(), {text_type(std::max<std::size_t>(1, text.size())), {}});
 }
 
 H5Writer::H5Writer() : H5Content(std::make_unique<Handles>(h5_access_to_memory(), h5_image_name)) {}
@@ -176,8 +226,8 @@ H5FileWriter::H5FileWriter(const std::filesystem::path& file) : H5Content(nullpt
 H5FileWriter::~H5FileWriter() = default;
 
 void H5FileWriter::begin_table(const std::string& name, std::span<const double> values, std::size_t rows,
-                               std::size_t columns) {
-  put(handles_->file->get(), name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values.data(), {rows, columns}, false,
+                               std::size_t columns, H5Words words) {
+  put(handles_->file->get(), name, values.data(), {type_of<double>(), {rows, columns}, words},
       values.size() / columns);
 }
 
@@ -187,42 +237,13 @@ void H5FileWriter::add_rows(const std::string& name, std::size_t first_row, std:
   const H5Id space(H5Dget_space(set.get()), H5Sclose);
   hsize_t shape[2] = {};
   check_h5(H5Sget_simple_extent_dims(space.get(), shape, nullptr) == 2, "open a table");
-  write_rows(set.get(), H5T_NATIVE_DOUBLE, values.data(), first_row, values.size() / shape[1]);
+  write_rows(set.get(), type_of<double>(), values.data(), first_row, values.size() / shape[1]);
 }
 
-template <class T>
-void H5FileWriter::begin_array(const std::string& name, std::size_t count) {
-  static_assert(std::endian::native == std::endian::little);
-  const H5Id set = create_set(handles_->file->get(), name, file_type_of<T>(), {count}, false);
-  places_.push_back(0);
-  if (count == 0) return;
-  // HDF5 finds room for an array when its first number is written.
-  const H5Id space(H5Dget_space(set.get()), H5Sclose);
-  const hsize_t start[] = {0}, one[] = {1};
-  const H5Id memory(H5Screate_simple(1, one, nullptr), H5Sclose);
-  const T zero{};
-  check_h5(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start, nullptr, one, nullptr) >= 0 &&
-               H5Dwrite(set.get(), file_type_of<T>(), memory.get(), space.get(), H5P_DEFAULT, &zero) >= 0,
-           "begin an array");
-  const haddr_t place = H5Dget_offset(set.get());
-  check_h5(place != HADDR_UNDEF, "find room for an array");
-  places_.back() = place;
-}
-template void H5FileWriter::begin_array<double>(const std::string&, std::size_t);
-template void H5FileWriter::begin_array<float>(const std::string&, std::size_t);
-template void H5FileWriter::begin_array<std::int32_t>(const std::string&, std::size_t);
-template void H5FileWriter::begin_array<std::int64_t>(const std::string&, std::size_t);
-
-std::vector<std::uint64_t> H5FileWriter::end_content() {
+void H5FileWriter::save() {
   if (!handles_->file->end()) throw IoError(aside_.path().string() + ": HDF5 could not write it");
-  ended_ = true;
-  return std::exchange(places_, {});
-}
-
-void H5FileWriter::save(const std::filesystem::path& previous) {
-  if (!ended_) (void)end_content();
   append_checksum(aside_.path());
-  aside_.take_the_place(previous);
+  aside_.take_the_place();
 }
 
 }  // namespace drumlin

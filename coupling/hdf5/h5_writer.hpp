@@ -6,11 +6,19 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "coupling/common/files/text_file.hpp"
+#include "coupling/common/scales.hpp"
 
 namespace drumlin {
+
+/// What the numbers of a dataset are: its attributes `unit` ("1": none) and `description`, absent without
+/// one.
+struct H5Words {
+  std::string_view unit = {}, description = {};
+};
 
 /// What an HDF5 file in the making takes. Names are paths like "contacts/normal"; groups are made as needed.
 class H5Content {
@@ -18,18 +26,24 @@ class H5Content {
   H5Content(const H5Content&) = delete;
   H5Content& operator=(const H5Content&) = delete;
 
-  void add(const std::string& name, std::span<const double> values);
-  void add(const std::string& name, std::span<const float> values);
-  void add(const std::string& name, std::span<const std::int32_t> values);
-  void add(const std::string& name, std::span<const std::int64_t> values);
+  /// T: double, float, std::int32_t or std::int64_t.
+  template <class T>
+  void add(const std::string& name, std::span<const T> values, H5Words words = {});
+  template <class T>
+  void add(const std::string& name, const std::vector<T>& values, H5Words words = {}) {
+    add(name, std::span<const T>(values), words);
+  }
   /// Row after row; `values` holds a whole number of rows.
-  void add_table(const std::string& name, std::span<const double> values, std::size_t columns);
+  void add_table(const std::string& name, std::span<const double> values, std::size_t columns,
+                 H5Words words = {});
   /// The same in single precision, packed (shuffled and deflated) after rounding to `bits` binary digits, 1
   /// to 23, of which the first one is not counted: a relative error of 2^-(bits + 1).
   void add_packed_table(const std::string& name, std::span<const double> values, std::size_t columns,
-                        int bits);
-  void add_number(const std::string& name, double value);
-  void add_number(const std::string& name, std::int64_t value);
+                        int bits, H5Words words = {});
+  void add_number(const std::string& name, double value, H5Words words = {});
+  void add_number(const std::string& name, std::int64_t value, H5Words words = {});
+  void add_scales(const Scales& scales);
+  /// A string of UTF-8 as long as it is.
   void add_text(const std::string& name, const std::string& text);
 
  protected:
@@ -49,8 +63,7 @@ class H5Writer : public H5Content {
   void save(const std::filesystem::path& file, const std::filesystem::path& previous = {}) const;
 };
 
-/// The same file, byte for byte, made on the disk: for tables that are never in memory as a whole, and arrays
-/// that others write.
+/// The same file, byte for byte, made on the disk: for tables that are never in memory as a whole.
 class H5FileWriter : public H5Content {
  public:
   /// Throws IoError; so do all members. The older file of that name is untouched until save().
@@ -59,24 +72,13 @@ class H5FileWriter : public H5Content {
   /// A table of `rows` rows whose first ones are `values`, a whole number of rows; the others follow by
   /// add_rows().
   void begin_table(const std::string& name, std::span<const double> values, std::size_t rows,
-                   std::size_t columns);
+                   std::size_t columns, H5Words words = {});
   void add_rows(const std::string& name, std::size_t first_row, std::span<const double> values);
-  /// An array of `count` numbers that others write into the file once end_content() has told them where. T:
-  /// double, float, std::int32_t or std::int64_t, low bytes first.
-  template <class T>
-  void begin_array(const std::string& name, std::size_t count);
-  /// Ends what HDF5 has to do. Returns where the arrays stand that were begun, in bytes from the beginning of
-  /// the file, in their order; 0 of an empty one.
-  std::vector<std::uint64_t> end_content();
-  /// The file as long as it is in the making.
-  const std::filesystem::path& aside() const { return aside_.path(); }
-  /// Closes it by its checksum and puts it in its place, as FileInTheMaking does. Nothing is added after it.
-  void save(const std::filesystem::path& previous = {});
+  /// Closes it by its checksum and puts it in its place. Nothing is added after it.
+  void save();
 
  private:
   FileInTheMaking aside_;
-  std::vector<std::uint64_t> places_;  // of the arrays begun
-  bool ended_ = false;                 // end_content()
 };
 
 }  // namespace drumlin

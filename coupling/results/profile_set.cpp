@@ -14,6 +14,7 @@
 #include "coupling/common/files/text_file.hpp"
 #include "coupling/documents/csv.hpp"
 #include "coupling/documents/number_text.hpp"
+#include "coupling/results/quantities.hpp"
 
 namespace drumlin {
 
@@ -66,13 +67,8 @@ class ProfileReader {
     read_names();
     while (next_line())
       if (!trimmed(line_).empty()) read_layer();
-    for (ProfileColumn& column : profiles_.columns) {
-      const auto text = profiles_.header.further.extract(std::string(column_prefix) + column.name);
-      if (text.empty()) continue;
-      const auto colon = text.mapped().find(": ");
-      column.unit = text.mapped().substr(0, colon);
-      if (colon != std::string::npos) column.meaning = text.mapped().substr(colon + 2);
-    }
+    for (const ProfileColumn& column : profiles_.columns)  // their names say as much
+      profiles_.header.further.erase(std::string(column_prefix) + column.name);
     return std::move(profiles_);
   }
 
@@ -178,8 +174,8 @@ std::string profile_table(const ProfileSet& profiles, const std::string& coordin
 std::string column_lines(const ProfileSet& profiles) {
   std::string lines;
   for (const auto& column : profiles.columns)
-    if (!column.unit.empty())
-      lines += fmt::format("# {}{} = {}: {}\n", column_prefix, column.name, column.unit, column.meaning);
+    if (const auto [unit, meaning] = quantity_words(column.name); !unit.empty())
+      lines += fmt::format("# {}{} = {}: {}\n", column_prefix, column.name, unit, meaning);
   return lines;
 }
 

@@ -12,8 +12,7 @@ namespace drumlin {
 struct ProfileColumn {
   std::string name;
   std::vector<double> value;
-  std::vector<double> ci99;             ///< half width of the 99 % interval; empty when the quantity has none
-  std::string unit = {}, meaning = {};  ///< in words; empty where nobody said it
+  std::vector<double> ci99;  ///< half width of the 99 % interval; empty when the quantity has none
 };
 
 /// Profile at one position x. z counts from the free surface (negative below it), one entry per layer,
@@ -33,7 +32,7 @@ struct ProfileSet {
 /// line per layer.
 std::string profile_table(const ProfileSet& profiles, const std::string& coordinate = "z");
 
-/// What the columns are, a line "# column NAME = UNIT: MEANING" for each that tells it.
+/// What the columns are, a line "# column NAME = UNIT: MEANING" for each quantity (quantities.hpp).
 std::string column_lines(const ProfileSet& profiles);
 
 /// profiles.csv, version 1: "# drumlin-profiles-1", "# key = value" lines, those of columns, a line of names

@@ -15,7 +15,7 @@ import pathlib
 import h5py
 import numpy
 import whole_file
-from result_files import read_maps
+from result_files import number_of, read_maps
 
 CORNER = list(range(70, 89, 2))
 ANGLES = [-a for a in CORNER[::-1]] + list(range(-65, 66, 5)) + CORNER  # deg
@@ -90,7 +90,7 @@ def contacts_of(run):
             i, j = s["contacts/i"][:], s["contacts/j"][:]
             n_x, n_z = s["contacts/normal_x"][:], s["contacts/normal_z"][:]
             normal, along = s["contacts/impulse_n"][:], s["contacts/impulse_t"][:]
-            axis, wall, size = (s["container/x"][0], s["container/z"][0]), s["wall/spin"][0], s["container/radius"][0]
+            axis, wall, size = (number_of(s["container/x"]), number_of(s["container/z"])), number_of(s["wall/spin"]), number_of(s["container/radius"])
         of_wall = j < 0
         i, n_x, n_z, normal, along = i[of_wall], n_x[of_wall], n_z[of_wall], normal[of_wall], along[of_wall]
         x, z, radius = g["x"][i] - axis[0], g["z"][i] - axis[1], g["radius"][i]

@@ -18,14 +18,19 @@ void each_number(Load& load, Visit visit) {
 }
 constexpr std::size_t numbers_of_load = 13;
 
-/// Calls visit(name, number) for all numbers of a cell.
+/// Calls visit(name, number, words) for all numbers of a cell.
 template <class Cell, class Visit>
 void each_number_of(Cell& cell, Visit visit) {
-  visit("cell/middle_x", cell.middle_x), visit("cell/middle_z", cell.middle_z);
-  visit("cell/length_x", cell.length_x), visit("cell/length_z", cell.length_z);
-  visit("cell/offset", cell.offset);
-  visit("cell/rate_x", cell.rate_x), visit("cell/rate_z", cell.rate_z), visit("cell/shear", cell.shear);
-  visit("cell/struck_x", cell.struck_x), visit("cell/struck_z", cell.struck_z);
+  visit("cell/middle_x", cell.middle_x, {"d", "middle"});
+  visit("cell/middle_z", cell.middle_z, {"d", "middle"});
+  visit("cell/length_x", cell.length_x, {"d", "length"});
+  visit("cell/length_z", cell.length_z, {"d", "height"});
+  visit("cell/offset", cell.offset, {"d", "displacement of the image above along x"});
+  visit("cell/rate_x", cell.rate_x, {"sqrt(g/d)", "rate of its length"});
+  visit("cell/rate_z", cell.rate_z, {"sqrt(g/d)", "rate of its height"});
+  visit("cell/shear", cell.shear, {"sqrt(g/d)", "velocity of the image above along x, over the height"});
+  visit("cell/struck_x", cell.struck_x, {"rho0 d^3 sqrt(g d)", "impulse times branch of impacts"});
+  visit("cell/struck_z", cell.struck_z, {"rho0 d^3 sqrt(g d)", "impulse times branch of impacts"});
 }
 
 }  // namespace
@@ -50,18 +55,22 @@ void put_stage_changes(const Checkpoint& checkpoint, H5Content& out) {
     }
   }
   if (state.gravity) {
-    out.add_number("gravity/acceleration_m_s2", state.gravity->acceleration_m_s2);
-    out.add_number("gravity/direction_deg", state.gravity->direction_deg);
+    out.add_number("gravity/acceleration_m_s2", state.gravity->acceleration_m_s2, {"m/s2", "gravity"});
+    out.add_number("gravity/direction_deg", state.gravity->direction_deg, {"deg", "anticlockwise from +x"});
   }
   if (state.cell)
-    each_number_of(*state.cell, [&out](const char* name, double number) { out.add_number(name, number); });
+    each_number_of(*state.cell, [&out](const char* name, double number, H5Words words) {
+      out.add_number(name, number, words);
+    });
   if (!state.loads) return;
   out.add_number("loads/bytes", checkpoint.walls_bytes);
-  out.add_number("loads/time", state.loads->time);
+  out.add_number("loads/time", state.loads->time, {"sqrt(d/g)", "length of the interval so far"});
   std::vector<double> rows;
   for (const WallLoad& load : state.loads->walls)
     each_number(load, [&rows](double number) { rows.push_back(number); });
-  out.add("loads/walls", std::span<const double>(rows));
+  out.add("loads/walls", rows,
+          {"rho0 d^2 sqrt(g d), rho0 d^3 sqrt(g d), sqrt(d/g), d, rad",
+           "impulse, moment, time and places of each wall (WallLoad)"});
 }
 
 void get_stage_changes(const H5Reader& in, Checkpoint& checkpoint) {
@@ -78,7 +87,7 @@ void get_stage_changes(const H5Reader& in, Checkpoint& checkpoint) {
     state.gravity = {in.number("gravity/acceleration_m_s2"), in.number("gravity/direction_deg")};
   if (in.has("cell"))
     each_number_of(state.cell.emplace(),
-                   [&in](const char* name, double& number) { number = in.number(name); });
+                   [&in](const char* name, double& number, H5Words) { number = in.number(name); });
   if (!in.has("loads")) return;
   checkpoint.walls_bytes = in.integer("loads/bytes", 0);
   state.loads.emplace().time = in.number("loads/time");

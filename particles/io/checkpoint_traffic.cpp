@@ -15,15 +15,14 @@ constexpr std::size_t columns_of_waiting = 3;
 constexpr double most_materials = 255;
 
 void put_left(const LeftGrains& left, H5Content& out) {
-  out.add("left/grains", std::span<const std::int32_t>(
-                             std::vector<std::int32_t>(left.has_left.begin(), left.has_left.end())));
-  out.add("left/per_stage", std::span<const std::int64_t>(left.per_stage));
+  out.add("left/grains", std::vector<std::int32_t>(left.has_left.begin(), left.has_left.end()));
+  out.add("left/per_stage", left.per_stage);
   out.add_number("left/named", static_cast<std::int64_t>(left.first.size()));
   for (std::size_t f = 0; f < left.first.size(); ++f) {
     const std::string name = fmt::format("left/{}/", f);
     out.add_number(name + "grain", left.first[f].grain);
     out.add_number(name + "stage", static_cast<std::int64_t>(left.first[f].stage));
-    out.add_number(name + "time", left.first[f].time);
+    out.add_number(name + "time", left.first[f].time, {"sqrt(d/g)", "when the grain left"});
   }
 }
 
@@ -50,21 +49,21 @@ void put_traffic(const Checkpoint& checkpoint, H5Content& out) {
   if (state.left) put_left(*state.left, out);
   if (!state.traffic) return;
   const Traffic& traffic = *state.traffic;
-  out.add("bodies/id", std::span<const std::int64_t>(state.bodies.id));
+  out.add("bodies/id", state.bodies.id);
   out.add_number("traffic/next_id", traffic.next_id);
   out.add_number("traffic/regions_bytes", checkpoint.regions_bytes);
-  out.add("traffic/poured", std::span<const std::int64_t>(traffic.poured));
+  out.add("traffic/poured", traffic.poured);
   out.add_number("traffic/outlets", static_cast<std::int64_t>(traffic.outlets.size()));
   for (std::size_t o = 0; o < traffic.outlets.size(); ++o) {
     const OutletState& outlet = traffic.outlets[o];
     const std::string name = fmt::format("traffic/{}/", o);
-    out.add(name + "times", std::span<const double>(outlet.times));
-    out.add_number(name + "mass", outlet.mass);
+    out.add(name + "times", outlet.times, {"sqrt(d/g)", "when grains came out"});
+    out.add_number(name + "mass", outlet.mass, {"rho0 d^2", "mass that came out, per depth"});
     out.add_number(name + "at_stage_start", outlet.at_stage_start);
     std::vector<double> rows;
     for (const WaitingGrain& grain : outlet.waiting)
       rows.insert(rows.end(), {grain.radius, grain.inverse_mass, static_cast<double>(grain.material)});
-    out.add(name + "waiting", std::span<const double>(rows));
+    out.add(name + "waiting", rows, {"d, 1/(rho0 d^2), 1", "radius, inverse mass and material of each"});
   }
 }
 

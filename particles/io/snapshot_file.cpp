@@ -7,10 +7,81 @@
 #include "coupling/common/files/text_file.hpp"
 #include "coupling/hdf5/h5_reader.hpp"
 #include "coupling/hdf5/h5_writer.hpp"
-#include "particles/io/snapshot_contents.hpp"
 
 namespace drumlin::particles {
 namespace {
+
+const std::string snapshot_format = "drumlin-snapshot-1";
+
+/// Calls visit(name, number, words) for all single numbers, those of a cell apart.
+template <class S, class Visit>
+void each_number_of_snapshot(S& s, Visit visit) {
+  visit("time", s.time, {"sqrt(d/g)", "since the start"});
+  visit("time_step", s.time_step, {"sqrt(d/g)", "that led here"});
+  visit("wall/angle", s.wall_angle, {"rad", "of the first wall that rotates, clockwise"});
+  visit("wall/spin", s.wall_spin, {"sqrt(g/d)", "of the first wall that rotates, clockwise"});
+  visit("container/x", s.container_x, {"d", "middle of the first circular container"});
+  visit("container/z", s.container_z, {"d", "middle of the first circular container"});
+  visit("container/radius", s.container_radius, {"d", "0: no circular container"});
+  visit("gravity_x", s.gravity_x, {"g", "body acceleration"});
+  visit("gravity_z", s.gravity_z, {"g", "body acceleration"});
+  visit("velocity_window", s.velocity_window, {"sqrt(d/g)", "time that the displacements cover"});
+  visit("period_x", s.period_x, {"d", "length of a periodic domain; 0: open"});
+}
+
+/// The same of a cell.
+template <class Cell, class Visit>
+void each_number_of_cell(Cell& cell, Visit visit) {
+  visit("cell/x", cell.x, {"d", "lower left corner"});
+  visit("cell/z", cell.z, {"d", "lower left corner"});
+  visit("cell/height", cell.height, {"d", "height"});
+  visit("cell/offset", cell.offset, {"d", "displacement of the image above along x"});
+  visit("cell/rate_x", cell.rate_x, {"sqrt(g/d)", "rate of its length"});
+  visit("cell/rate_z", cell.rate_z, {"sqrt(g/d)", "rate of its height"});
+  visit("cell/shear", cell.shear, {"sqrt(g/d)", "velocity of the image above along x, over the height"});
+}
+
+/// Calls visit(name, values, words) for all arrays of numbers that each grain has, and for those that it may
+/// have.
+template <class S, class Visit>
+void each_array_of_grains(S& s, Visit visit) {
+  visit("grains/x", s.x, {"d", "centre, to the right"});
+  visit("grains/z", s.z, {"d", "centre, upwards"});
+  visit("grains/v_x", s.v_x, {"sqrt(g d)", "velocity to the right"});
+  visit("grains/v_z", s.v_z, {"sqrt(g d)", "velocity upwards"});
+  visit("grains/radius", s.radius, {"d", "radius"});
+}
+template <class S, class Visit>
+void each_further_array_of_grains(S& s, Visit visit) {
+  visit("grains/spin", s.spin, {"sqrt(g/d)", "angular velocity, clockwise"});
+  visit("grains/mass", s.mass, {"rho0 d^2", "mass per depth"});
+  visit("grains/displacement_x", s.displacement_x, {"d", "to the right, over the velocity window"});
+  visit("grains/displacement_z", s.displacement_z, {"d", "upwards, over the velocity window"});
+}
+
+template <class S, class Visit>
+void each_array_of_walls(S& s, Visit visit) {
+  visit("walls/angle", s.wall_pose_angle, {"rad", "turned, clockwise"});
+  visit("walls/x", s.wall_pose_x, {"d", "displacement to the right"});
+  visit("walls/z", s.wall_pose_z, {"d", "displacement upwards"});
+}
+
+void add_contacts(const Snapshot& s, H5Writer& out) {
+  const auto add = [&]<class T>(const char* name, T SnapshotContact::*member, H5Words words) {
+    std::vector<T> values;
+    values.reserve(s.contacts.size());
+    for (const SnapshotContact& c : s.contacts) values.push_back(c.*member);
+    out.add(name, values, words);
+  };
+  add("contacts/i", &SnapshotContact::i, {"1", "grain i"});
+  add("contacts/j", &SnapshotContact::j, {"1", "grain j, or -1 - w for shape w of the walls"});
+  add("contacts/normal_x", &SnapshotContact::normal_x, {"1", "unit normal from j to i"});
+  add("contacts/normal_z", &SnapshotContact::normal_z, {"1", "unit normal from j to i"});
+  const char* unit = "rho0 d^2 sqrt(g d)";
+  add("contacts/impulse_n", &SnapshotContact::impulse_n, {unit, "on i along the normal"});
+  add("contacts/impulse_t", &SnapshotContact::impulse_t, {unit, "on i along (n_z, -n_x)"});
+}
+
 void read_contacts(const H5Reader& in, Snapshot& s) {
   const auto i = in.ints("contacts/i"), j = in.ints("contacts/j");
   const auto n_x = in.floats("contacts/normal_x"), n_z = in.floats("contacts/normal_z");
@@ -30,7 +101,25 @@ void read_contacts(const H5Reader& in, Snapshot& s) {
 
 std::string snapshot_image(const Snapshot& s) {
   H5Writer out;
-  add_snapshot(s, out);
+  out.add_text("format", snapshot_format);
+  out.add_number("step", s.step);
+  const auto number = [&out](const char* name, double value, H5Words words) {
+    out.add_number(name, value, words);
+  };
+  const auto array = [&out](const char* name, const std::vector<double>& values, H5Words words) {
+    out.add(name, values, words);
+  };
+  each_number_of_snapshot(s, number);
+  out.add_scales(s.scales);
+  each_array_of_grains(s, array);
+  each_further_array_of_grains(s, [&](const char* name, const auto& values, H5Words words) {
+    if (!values.empty()) array(name, values, words);
+  });
+  if (!s.id.empty()) out.add("grains/id", s.id, {"1", "identity, never given twice"});
+  if (!s.wall_pose_angle.empty()) each_array_of_walls(s, array);
+  if (!s.wall_open.empty()) out.add("walls/open", s.wall_open, {"1", "1: gone"});
+  if (s.cell) each_number_of_cell(*s.cell, number);
+  if (s.contacts_known) add_contacts(s, out);
   return out.image();
 }
 void write_snapshot(const std::filesystem::path& file, const Snapshot& s) {
@@ -38,56 +127,33 @@ void write_snapshot(const std::filesystem::path& file, const Snapshot& s) {
 }
 Snapshot read_snapshot(const std::filesystem::path& file) {
   const H5Reader in(file);
-  if (!in.has("format") || in.text("format") != snapshot_format)
-    in.refuse("format", in.has("format")
-                            ? "'" + in.text("format") + "', this version reads " + snapshot_format
-                            : "missing");
+  in.require_format(snapshot_format);
   Snapshot s;
   s.step = in.integer("step");
-  const std::pair<const char*, double*> numbers[] = {{"time", &s.time},
-                                                     {"time_step", &s.time_step},
-                                                     {"wall/angle", &s.wall_angle},
-                                                     {"wall/spin", &s.wall_spin},
-                                                     {"container/x", &s.container_x},
-                                                     {"container/z", &s.container_z},
-                                                     {"container/radius", &s.container_radius},
-                                                     {"gravity_x", &s.gravity_x},
-                                                     {"gravity_z", &s.gravity_z},
-                                                     {"velocity_window", &s.velocity_window},
-                                                     {"period_x", &s.period_x},
-                                                     {"scales/length_m", &s.scales.length_m},
-                                                     {"scales/time_s", &s.scales.time_s},
-                                                     {"scales/density_kg_m3", &s.scales.density_kg_m3}};
-  for (const auto& [name, value] : numbers) *value = in.number(name);
-  s.x = in.doubles("grains/x");
-  const std::size_t grains = s.x.size();
-  const auto per_grain = [&](const char* name, std::vector<double>& values, bool optional) {
-    if (optional && !in.has(name)) return;
+  const auto number = [&in](const char* name, double& value, H5Words) { value = in.number(name); };
+  each_number_of_snapshot(s, number);
+  s.scales = in.scales();
+  const auto per_grain = [&](const char* name, std::vector<double>& values, H5Words) {
     values = in.doubles(name);
-    if (values.size() != grains) in.refuse(name, "not one entry per grain");
+    if (values.size() != s.x.size()) in.refuse(name, "not one entry per grain");
   };
-  per_grain("grains/z", s.z, false), per_grain("grains/v_x", s.v_x, false),
-      per_grain("grains/v_z", s.v_z, false);
-  per_grain("grains/radius", s.radius, false), per_grain("grains/spin", s.spin, true);
-  per_grain("grains/displacement_x", s.displacement_x, true),
-      per_grain("grains/displacement_z", s.displacement_z, true);
-  per_grain("grains/mass", s.mass, true);
+  each_array_of_grains(s, per_grain);
+  each_further_array_of_grains(s, [&](const char* name, auto& values, H5Words words) {
+    if (in.has(name)) per_grain(name, values, words);
+  });
   if (in.has("grains/id")) {
     s.id = in.longs("grains/id");
-    if (s.id.size() != grains) in.refuse("grains/id", "not one entry per grain");
+    if (s.id.size() != s.x.size()) in.refuse("grains/id", "not one entry per grain");
     if (std::adjacent_find(s.id.begin(), s.id.end(), std::greater_equal<>()) != s.id.end())
       in.refuse("grains/id", "not ascending");
   }
-  if (in.has("walls/angle")) {
-    s.wall_pose_angle = in.doubles("walls/angle");
-    s.wall_pose_x = in.doubles("walls/x"), s.wall_pose_z = in.doubles("walls/z");
-    for (const std::size_t size : {s.wall_pose_x.size(), s.wall_pose_z.size()})
-      if (size != s.wall_pose_angle.size()) in.refuse("walls", "arrays of unequal length");
-  }
+  if (in.has("walls/angle"))
+    each_array_of_walls(s, [&](const char* name, std::vector<double>& values, H5Words) {
+      values = in.doubles(name);
+      if (values.size() != s.wall_pose_angle.size()) in.refuse("walls", "arrays of unequal length");
+    });
   if (in.has("walls/open")) s.wall_open = in.ints("walls/open", 0, 1);
-  if (in.has("cell"))
-    each_number_of_cell(s.cell.emplace(),
-                        [&in](const char* name, double& number) { number = in.number(name); });
+  if (in.has("cell")) each_number_of_cell(s.cell.emplace(), number);
   s.contacts_known = in.has("contacts");
   if (s.contacts_known) read_contacts(in, s);
   return s;

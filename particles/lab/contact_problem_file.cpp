@@ -95,11 +95,11 @@ BlockProblem read_contact_problem(const std::filesystem::path& file) {
 void write_contact_solution(const std::filesystem::path& file, std::span<const double> r,
                             std::span<const double> u, const ContactNotes& notes) {
   H5Writer out;
-  out.add("solution/r", r);
-  out.add("solution/u", u);
-  if (!notes.state.empty()) out.add("solution/state", std::span(notes.state));
-  if (!notes.changes.empty()) out.add("solution/changes", std::span(notes.changes));
-  if (!notes.error.empty()) out.add("solution/error", std::span(notes.error));
+  out.add("solution/r", r, {"of q over that of W", "impulses, normal and tangential of each contact"});
+  out.add("solution/u", u, {"of q", "relative velocities, normal and tangential of each contact"});
+  if (!notes.state.empty()) out.add("solution/state", notes.state, {"1", "0: open, 1: sticking, 2: sliding"});
+  if (!notes.changes.empty()) out.add("solution/changes", notes.changes, {"1", "changes of that state"});
+  if (!notes.error.empty()) out.add("solution/error", notes.error, {"1", "e_a over the rms of q"});
   out.save(file);
 }
 
@@ -126,19 +126,20 @@ void write_contact_problem(const std::filesystem::path& file, const BlockProblem
   add_int("spacedim", 2);
   add_int("W/nzmax", static_cast<std::int32_t>(x.size()));
   add_int("W/m", size), add_int("W/n", size), add_int("W/nz", -2);
-  out.add(root + "W/p", std::span<const std::int32_t>(p));
-  out.add(root + "W/i", std::span<const std::int32_t>(i));
-  out.add(root + "W/x", std::span<const double>(x));
-  out.add(root + "vectors/q", std::span<const double>(problem.q));
-  out.add(root + "vectors/mu", std::span<const double>(problem.mu));
+  out.add(root + "W/p", p), out.add(root + "W/i", i);
+  out.add(root + "W/x", x, {"1/(rho0 d^2)", "velocity per impulse"});
+  out.add(root + "vectors/q", problem.q,
+          {"sqrt(g d)", "relative velocities without impulses, normal and tangential of each contact"});
+  out.add(root + "vectors/mu", problem.mu, {"1", "friction of each contact"});
   out.add(root + "vectors/s", std::span<const double>());
   out.add_text(root + "info/description", description);
-  out.add_number(time_step_name, problem.time_step);
+  out.add_number(time_step_name, problem.time_step, {"sqrt(d/g)", "time step"});
   const std::string group = "drumlin/contacts/";
   if (!places.x.empty()) {
-    out.add(group + "x", std::span(places.x)), out.add(group + "z", std::span(places.z));
-    out.add(group + "normal_x", std::span(places.normal_x));
-    out.add(group + "normal_z", std::span(places.normal_z));
+    out.add(group + "x", places.x, {"d", "position after the step"});
+    out.add(group + "z", places.z, {"d", "position after the step"});
+    out.add(group + "normal_x", places.normal_x, {"1", "unit normal towards the grain"});
+    out.add(group + "normal_z", places.normal_z, {"1", "unit normal towards the grain"});
   }
   out.save(file);
 }

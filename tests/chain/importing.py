@@ -52,14 +52,14 @@ class Snapshot:
 
     def __init__(self, file):
         with h5py.File(file) as stored:
-            length, time, density = (stored[f"scales/{name}"][0] for name in ("length_m", "time_s", "density_kg_m3"))
-            self.step, self.time_s = int(stored["step"][0]), stored["time"][0] * time
+            length, time, density = (stored[f"scales/{name}"][()] for name in ("length_m", "time_s", "density_kg_m3"))
+            self.step, self.time_s = int(stored["step"][()]), stored["time"][()] * time
             grains = {name: values[:] for name, values in stored["grains"].items()}
             self.x, self.z, self.radius = (grains[name] * length for name in ("x", "z", "radius"))
             self.v_x, self.v_z = (grains[name] * length / time for name in ("v_x", "v_z"))
             self.spin = grains["spin"] / time
             contacts = {name: values[:].astype(float) for name, values in stored["contacts"].items()}
-            force = density * length**3 / time**2 / stored["time_step"][0]  # N per metre of depth
+            force = density * length**3 / time**2 / stored["time_step"][()]  # N per metre of depth
             self.i, self.j = contacts["i"].astype(int), contacts["j"].astype(int)
             self.n_x, self.n_z = contacts["normal_x"], contacts["normal_z"]
             self.f_n, self.f_t = contacts["impulse_n"] * force, contacts["impulse_t"] * force

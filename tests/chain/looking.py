@@ -334,10 +334,10 @@ def exports(drumlin, one_disc, periodic, folder):
         require(len(list((output / kind).iterdir())) == 3, f"{kind}: other files than three")
 
     with h5py.File(periodic / "snapshots" / "000005.h5") as snapshot:
-        d, second, rho = (snapshot["scales/" + name][0] for name in ("length_m", "time_s", "density_kg_m3"))
+        d, second, rho = (snapshot["scales/" + name][()] for name in ("length_m", "time_s", "density_kg_m3"))
         grains = {name: values[:] for name, values in snapshot["grains"].items()}
         contacts = {name: values[:] for name, values in snapshot["contacts"].items()}
-        step = snapshot["time_step"][0]
+        step = snapshot["time_step"][()]
 
     def near(a, b, scale):  # numbers of single precision
         return numpy.allclose(a, b, rtol=1e-6, atol=1e-6 * scale)

@@ -77,11 +77,11 @@ def require_same(player, k, file):
     with h5py.File(file) as snapshot:
         found = {name: values[:] for name, values in snapshot["grains"].items()}
         contacts = {name: values[:] for name, values in snapshot["contacts"].items()}
-        force = contacts["impulse_n"] / snapshot["time_step"][0]
-        spin, center = snapshot["wall/spin"][0], (snapshot["container/x"][0], snapshot["container/z"][0])
-        spin = spin if snapshot["container/radius"][0] > 0 else 0
-        cell = {name: values[0] for name, values in snapshot["cell"].items()} if "cell" in snapshot else None
-        length = snapshot["period_x"][0]
+        force = contacts["impulse_n"] / snapshot["time_step"][()]
+        spin, center = snapshot["wall/spin"][()], (snapshot["container/x"][()], snapshot["container/z"][()])
+        spin = spin if snapshot["container/radius"][()] > 0 else 0
+        cell = {name: values[()] for name, values in snapshot["cell"].items()} if "cell" in snapshot else None
+        length = snapshot["period_x"][()]
     ids = [int(i) for i in found.get("id", numpy.arange(len(found["x"])))]
     require(sorted(grains) == ids, f"{file}: other grains")
     for n, i in enumerate(ids):
@@ -130,7 +130,7 @@ def require_player(run, folder, count):
     for k, number in enumerate(numbers):
         file = run / "snapshots" / f"{number:06}.h5"
         with h5py.File(file) as snapshot:
-            time = snapshot["time"][0] * snapshot["scales/time_s"][0]
+            time = snapshot["time"][()] * snapshot["scales/time_s"][()]
         require(math.isclose(player.content["time_s"][k], time, rel_tol=1e-9), f"{folder}: time of frame {k}")
         require_same(player, k, file)
     return player

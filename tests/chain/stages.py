@@ -23,7 +23,7 @@ def loads(run):
 def weight_of(run):
     """Of all grains, N per metre of depth."""
     with h5py.File(run / "snapshots" / "000001.h5") as snapshot:
-        radii = snapshot["grains/radius"][:] * snapshot["scales/length_m"][0]
+        radii = snapshot["grains/radius"][:] * snapshot["scales/length_m"][()]
     return math.pi * float((radii**2).sum()) * DENSITY * GRAVITY
 
 

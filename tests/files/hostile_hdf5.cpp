@@ -6,6 +6,7 @@
 
 #include "coupling/common/errors.hpp"
 #include "coupling/hdf5/h5_reader.hpp"
+#include "coupling/hdf5/h5_writer.hpp"
 #include "tests/files/folder.hpp"
 
 namespace drumlin {
@@ -103,6 +104,33 @@ TEST(HostileHdf5, PackedDataAreRead) {
         std::vector<double>(1000, 0.5));
   }
   EXPECT_EQ(H5Reader(folder / "f.h5", false).doubles("x"), std::vector<double>(1000, 0.5));
+}
+
+// What version 1 wrote: bytes for texts, arrays of one for numbers.
+TEST(OlderHdf5, TextsAndNumbersAreReadAsThoseOfToday) {
+  const TemporaryFolder folder;
+  const std::string words = "d = 2 \xC2\xB5m\n";
+  H5Writer out;
+  out.add("old/text", std::vector<std::int32_t>{'a', 'b'});
+  out.add("old/number", std::vector<double>{2.5});
+  out.add("old/integer", std::vector<std::int64_t>{7});
+  out.add_text("new/text", words);
+  out.add_number("new/number", 2.5, {"d", "a length"});
+  out.add_number("new/integer", std::int64_t{7});
+  out.add_text("nothing", "");
+  out.save(folder / "f.h5");
+  const H5Reader in(folder / "f.h5");
+  for (const std::string of : {"old", "new"}) {
+    EXPECT_EQ(in.number(of + "/number"), 2.5);
+    EXPECT_EQ(in.integer(of + "/integer"), 7);
+  }
+  EXPECT_EQ(in.text("old/text"), "ab");
+  EXPECT_EQ(in.text("new/text"), words);
+  EXPECT_EQ(in.text("nothing"), "");
+  EXPECT_TRUE(in.shape("new/text").empty());
+  EXPECT_TRUE(in.shape("new/number").empty());
+  expect_has(refusal(folder / "f.h5", "new/text"), "unexpected type");
+  in.require_readable();
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 """The commands' figures on axes of one's own: they show what the files hold, and what the files do not hold is refused by name."""
 
 import drumlin
+import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -19,6 +20,19 @@ def results(tmp_path_factory):
     drumlin.solve_flow(TESTS / "tiny-drum-flow.toml", SOURCES / "data/rheology/paper.toml", place / "FLOW", {"solver.sensitivity": False})
     drumlin.compare(place / "RUN", place / "FLOW", place / "REPORT", accept_unsteady=True)
     return drumlin.read(place)
+
+
+def test_the_hdf5_files_say_what_they_hold(results):
+    datasets = []
+    for file in results.path.rglob("*.h5"):
+        with h5py.File(file) as content:
+            content.visititems(lambda name, entry: datasets.append((f"{file.name}:{name}", entry.dtype, entry.shape, dict(entry.attrs)))
+                               if isinstance(entry, h5py.Dataset) else None)
+    assert {"maps.h5:fields/mu", "maps.h5:ci99/v_x", "000008.h5:grains/x", "checkpoint.h5:bodies/x", "state.h5:values"} <= {name for name, *_ in datasets}
+    for name, kind, shape, words in datasets:
+        assert kind.kind != "f" or all(words[key] for key in ("unit", "description")), name
+        assert kind != np.uint8 and (kind.kind != "S" or (shape, h5py.check_string_dtype(kind).encoding) == ((), "utf-8")), name
+        assert shape != (1,), f"{name}: no scalar"
 
 
 def drawn(axes):

@@ -10,74 +10,67 @@ namespace {
 using Of = LayerValues;
 using Known = KnownQuantities;
 
-constexpr const char *speed = "sqrt(g d)", *rate = "sqrt(g/d)", *stress = "rho0 g d",
-                     *stress_slope = "rho0 g", *number = "1", *per_length = "1/d";
+constexpr LayerQuantity of_layers[] = {{"v_x", &Of::v_x},
+                                       {"v_z", &Of::v_z},
+                                       {"shear_rate", &Of::shear_rate},
+                                       {"half_vorticity", &Of::half_vorticity},
+                                       {"omega", &Of::omega, &Known::spin},
+                                       {"nu", &Of::nu},
+                                       {"density", &Of::density, &Known::densities},
+                                       {"sigma_xx_kinetic", &Of::sigma_xx_kinetic},
+                                       {"sigma_zz_kinetic", &Of::sigma_zz_kinetic},
+                                       {"sigma_xz_kinetic", &Of::sigma_xz_kinetic},
+                                       {"sigma_rotational", &Of::sigma_rotational, &Known::spin},
+                                       {"sigma_xx", &Of::sigma_xx},
+                                       {"sigma_zz", &Of::sigma_zz},
+                                       {"sigma_xz", &Of::sigma_xz},
+                                       {"I", &Of::I},
+                                       {"mu", &Of::mu},
+                                       {"k", &Of::k},
+                                       {"dv", &Of::dv},
+                                       {"domega", &Of::domega, &Known::spin},
+                                       {"coordination", &Of::coordination},
+                                       {"count", &Of::count},
+                                       {"d_nu_dx", &Of::d_nu_dx, &Known::gradients},
+                                       {"d_v_x_dx", &Of::d_v_x_dx, &Known::gradients},
+                                       {"d_v_z_dx", &Of::d_v_z_dx, &Known::gradients},
+                                       {"d_sigma_zz_dx", &Of::d_sigma_zz_dx, &Known::gradients},
+                                       {"d_sigma_xx_dx", &Of::d_sigma_xx_dx, &Known::gradients},
+                                       {"d_sigma_xz_dx", &Of::d_sigma_xz_dx, &Known::gradients},
+                                       {"d_k_dx", &Of::d_k_dx, &Known::gradients},
+                                       {"d_sigma_zz_dz", &Of::d_sigma_zz_dz, &Known::gradients},
+                                       {"d_sigma_xx_dz", &Of::d_sigma_xx_dz, &Known::gradients},
+                                       {"d_sigma_xz_dz", &Of::d_sigma_xz_dz, &Known::gradients},
+                                       {"nu_voronoi", &Of::nu_voronoi, &Known::cells},
+                                       {"nu_grains", &Of::nu_grains, &Known::cells},
+                                       {"sigma_xx_grains", &Of::sigma_xx_grains, &Known::cells},
+                                       {"sigma_zz_grains", &Of::sigma_zz_grains, &Known::cells},
+                                       {"sigma_xz_grains", &Of::sigma_xz_grains, &Known::cells}};
 
-constexpr LayerQuantity of_layers[] = {
-    {"v_x", &Of::v_x, speed, "mean velocity along x"},
-    {"v_z", &Of::v_z, speed, "mean velocity along z"},
-    {"shear_rate", &Of::shear_rate, rate, "slope of v_x over z"},
-    {"half_vorticity", &Of::half_vorticity, rate, "half of d v_x/dz - d v_z/dx"},
-    {"omega", &Of::omega, rate, "mean spin of the grains", &Known::spin},
-    {"nu", &Of::nu, number, "volume fraction"},
-    {"density", &Of::density, "rho0", "mass per area", &Known::densities},
-    {"sigma_xx_kinetic", &Of::sigma_xx_kinetic, stress, "part of sigma_xx by velocity fluctuations"},
-    {"sigma_zz_kinetic", &Of::sigma_zz_kinetic, stress, "part of sigma_zz by velocity fluctuations"},
-    {"sigma_xz_kinetic", &Of::sigma_xz_kinetic, stress, "part of sigma_xz by velocity fluctuations"},
-    {"sigma_rotational", &Of::sigma_rotational, stress, "energy of the spins per area", &Known::spin},
-    {"sigma_xx", &Of::sigma_xx, stress, "normal stress along x, compression positive"},
-    {"sigma_zz", &Of::sigma_zz, stress, "normal stress along z, compression positive"},
-    {"sigma_xz", &Of::sigma_xz, stress, "traction of what is above on what is below, along x"},
-    {"I", &Of::I, number, "inertial number"},
-    {"mu", &Of::mu, number, "sigma_xz/sigma_zz"},
-    {"k", &Of::k, number, "sigma_xx/sigma_zz"},
-    {"dv", &Of::dv, speed, "fluctuation of the velocity"},
-    {"domega", &Of::domega, rate, "fluctuation of the spin", &Known::spin},
-    {"coordination", &Of::coordination, number, "loaded contacts per grain"},
-    {"count", &Of::count, number, "centres of grains in all snapshots"},
-    {"d_nu_dx", &Of::d_nu_dx, per_length, "slope of nu over x", &Known::gradients},
-    {"d_v_x_dx", &Of::d_v_x_dx, rate, "slope of v_x over x", &Known::gradients},
-    {"d_v_z_dx", &Of::d_v_z_dx, rate, "slope of v_z over x", &Known::gradients},
-    {"d_sigma_zz_dx", &Of::d_sigma_zz_dx, stress_slope, "slope of sigma_zz over x", &Known::gradients},
-    {"d_sigma_xx_dx", &Of::d_sigma_xx_dx, stress_slope, "slope of sigma_xx over x", &Known::gradients},
-    {"d_sigma_xz_dx", &Of::d_sigma_xz_dx, stress_slope, "slope of sigma_xz over x", &Known::gradients},
-    {"d_k_dx", &Of::d_k_dx, per_length, "slope of k over x", &Known::gradients},
-    {"d_sigma_zz_dz", &Of::d_sigma_zz_dz, stress_slope, "slope of sigma_zz over z", &Known::gradients},
-    {"d_sigma_xx_dz", &Of::d_sigma_xx_dz, stress_slope, "slope of sigma_xx over z", &Known::gradients},
-    {"d_sigma_xz_dz", &Of::d_sigma_xz_dz, stress_slope, "slope of sigma_xz over z", &Known::gradients},
-    {"nu_voronoi", &Of::nu_voronoi, number, "area of the grains over that of their Voronoi cells",
-     &Known::cells},
-    {"nu_grains", &Of::nu_grains, number, "mean volume fraction of Voronoi cells", &Known::cells},
-    {"sigma_xx_grains", &Of::sigma_xx_grains, stress, "mean contact stress of the grains, xx", &Known::cells},
-    {"sigma_zz_grains", &Of::sigma_zz_grains, stress, "mean contact stress of the grains, zz", &Known::cells},
-    {"sigma_xz_grains", &Of::sigma_xz_grains, stress, "mean contact stress of the grains, xz",
-     &Known::cells}};
-
-constexpr LayerQuantity of_rings[] = {
-    {"v_t", &Of::v_x, "", "mean velocity along the tangent, clockwise"},
-    {"v_r", &Of::v_z, "", "mean velocity outwards"},
-    {"shear_rate", &Of::shear_rate, "", "r times the slope of v_t/r over r"},
-    {"half_vorticity", &Of::half_vorticity, "", "half of the curl, clockwise"},
-    {"omega", &Of::omega, "", "", &Known::spin},
-    {"nu", &Of::nu},
-    {"density", &Of::density, "", "", &Known::densities},
-    {"sigma_rr_kinetic", &Of::sigma_zz_kinetic, "", "part of sigma_rr by velocity fluctuations"},
-    {"sigma_rr", &Of::sigma_zz, "", "normal stress along r, compression positive"},
-    {"sigma_tt_kinetic", &Of::sigma_xx_kinetic, "", "part of sigma_tt by velocity fluctuations"},
-    {"sigma_tt", &Of::sigma_xx, "", "normal stress along the tangent, compression positive"},
-    {"sigma_rt_kinetic", &Of::sigma_xz_kinetic, "", "part of sigma_rt by velocity fluctuations"},
-    {"sigma_rt", &Of::sigma_xz, "", "traction of what is outside on what is inside, clockwise"},
-    {"I", &Of::I},
-    {"mu", &Of::mu, "", "sigma_rt/sigma_rr"},
-    {"k", &Of::k, "", "sigma_tt/sigma_rr"},
-    {"coordination", &Of::coordination, "", "", &Known::contacts},
-    {"count", &Of::count}};
+constexpr LayerQuantity of_rings[] = {{"v_t", &Of::v_x},
+                                      {"v_r", &Of::v_z},
+                                      {"shear_rate", &Of::shear_rate},
+                                      {"half_vorticity", &Of::half_vorticity},
+                                      {"omega", &Of::omega, &Known::spin},
+                                      {"nu", &Of::nu},
+                                      {"density", &Of::density, &Known::densities},
+                                      {"sigma_rr_kinetic", &Of::sigma_zz_kinetic},
+                                      {"sigma_rr", &Of::sigma_zz},
+                                      {"sigma_tt_kinetic", &Of::sigma_xx_kinetic},
+                                      {"sigma_tt", &Of::sigma_xx},
+                                      {"sigma_rt_kinetic", &Of::sigma_xz_kinetic},
+                                      {"sigma_rt", &Of::sigma_xz},
+                                      {"I", &Of::I},
+                                      {"mu", &Of::mu},
+                                      {"k", &Of::k},
+                                      {"coordination", &Of::coordination, &Known::contacts},
+                                      {"count", &Of::count}};
 
 constexpr LayerQuantity of_height[] = {{"v_x", &Of::v_x},
                                        {"v_z", &Of::v_z},
-                                       {"omega", &Of::omega, "", "", &Known::spin},
+                                       {"omega", &Of::omega, &Known::spin},
                                        {"nu", &Of::nu},
-                                       {"density", &Of::density, "", "", &Known::densities},
+                                       {"density", &Of::density, &Known::densities},
                                        {"sigma_zz_kinetic", &Of::sigma_zz_kinetic},
                                        {"sigma_xx_kinetic", &Of::sigma_xx_kinetic},
                                        {"sigma_xz_kinetic", &Of::sigma_xz_kinetic},
@@ -89,17 +82,17 @@ constexpr LayerQuantity of_height[] = {{"v_x", &Of::v_x},
                                        {"count", &Of::count}};
 
 constexpr LayerQuantity of_width[] = {{"v_x", &Of::v_z},
-                                      {"v_z", &Of::v_x, "", "", nullptr, -1},
-                                      {"d_v_z_dx", &Of::shear_rate, "", "", nullptr, -1},
-                                      {"omega", &Of::omega, "", "", &Known::spin},
+                                      {"v_z", &Of::v_x, nullptr, -1},
+                                      {"d_v_z_dx", &Of::shear_rate, nullptr, -1},
+                                      {"omega", &Of::omega, &Known::spin},
                                       {"nu", &Of::nu},
-                                      {"density", &Of::density, "", "", &Known::densities},
+                                      {"density", &Of::density, &Known::densities},
                                       {"sigma_zz_kinetic", &Of::sigma_xx_kinetic},
                                       {"sigma_xx_kinetic", &Of::sigma_zz_kinetic},
-                                      {"sigma_xz_kinetic", &Of::sigma_xz_kinetic, "", "", nullptr, -1},
+                                      {"sigma_xz_kinetic", &Of::sigma_xz_kinetic, nullptr, -1},
                                       {"sigma_zz", &Of::sigma_xx},
                                       {"sigma_xx", &Of::sigma_zz},
-                                      {"sigma_xz", &Of::sigma_xz, "", "", nullptr, -1},
+                                      {"sigma_xz", &Of::sigma_xz, nullptr, -1},
                                       {"coordination", &Of::coordination},
                                       {"count", &Of::count}};
 
@@ -232,17 +225,6 @@ bool knows(const Profile& profile, const LayerQuantity& quantity) {
   return !quantity.needs || profile.known.*quantity.needs;
 }
 
-/// With unit and meaning: its own, else those of the layers' column of that name; the unit of what stands
-/// there holds under any name.
-LayerQuantity told_of(LayerQuantity quantity) {
-  const std::string name = quantity.name, meaning = quantity.meaning;
-  for (const LayerQuantity& other : of_layers) {
-    if (other.value == quantity.value) quantity.unit = other.unit;
-    if (meaning.empty() && name == other.name) quantity.meaning = other.meaning;
-  }
-  return quantity;
-}
-
 }  // namespace
 
 std::span<const LayerQuantity> layer_quantities() { return of_layers; }
@@ -289,9 +271,7 @@ ProfileSet table_of(const Profile& profile, std::span<const LayerQuantity> quant
   for (const LayerValues& layer : profile.layers) table.z.push_back(layer.z);
   for (const LayerQuantity& quantity : quantities) {
     if (!knows(profile, quantity)) continue;
-    const LayerQuantity told = told_of(quantity);
-    ProfileColumn& column =
-        table.columns.emplace_back(ProfileColumn{quantity.name, {}, {}, told.unit, told.meaning});
+    ProfileColumn& column = table.columns.emplace_back(ProfileColumn{quantity.name, {}, {}});
     for (const LayerValues& layer : profile.layers)
       column.value.push_back(quantity.sign * layer.*quantity.value);
   }

@@ -37,12 +37,11 @@ struct Profile {
   double surface_z = 0;  ///< of z = 0 in the frame of the grid
 };
 
-/// A column of a table: its name, where it stands, what it is, what it needs and, in other axes, the sign
-/// that it takes. Where a table does not say it, unit and meaning are those of layer_quantities().
+/// A column of a table: its name (coupling/results/quantities.hpp), where it stands, what it needs and, in
+/// other axes, the sign that it takes.
 struct LayerQuantity {
   const char* name;
   double LayerValues::*value;
-  const char *unit = "", *meaning = "";
   bool KnownQuantities::*needs = nullptr;
   double sign = 1;
 };
