@@ -12,6 +12,7 @@
 #include "coupling/common/errors.hpp"
 #include "coupling/common/files/folder_lock.hpp"
 #include "coupling/common/files/manifest.hpp"
+#include "coupling/common/run_status.hpp"
 #include "coupling/documents/json_document.hpp"
 
 namespace drumlin::apps {
@@ -48,7 +49,9 @@ std::string checked_reason(const std::string& reason) {
 Manifest first_manifest(const fs::path& folder, const std::string& command) {
   Manifest manifest{.command = command, .complete = true, .accepted = {}, .files = {}};
   if (command == "run")
-    manifest.complete = read_json(folder / "run.json", "drumlin-run-1").value("status", "") == "finished";
+    manifest.complete =
+        enumerator<RunStatus>(read_json(folder / "run.json", "drumlin-run-1").value("status", "")) ==
+        RunStatus::finished;
   else if (command == "flow" || command == "import")
     manifest.complete = fs::exists(folder / (command == "flow" ? "flow.json" : "run.json"));
   for (const std::string& name : files_below(folder))

@@ -45,7 +45,7 @@ int compare(const CompareOptions& options) {
   if (options.existing == ExistingOutput::resume && is_complete(finished))
     return done_already(options.output, asked);
   const ComparedRuns runs = read_runs(options);
-  const bool drums = coupling::geometry_of(runs.first.compared.profiles) == "drum";
+  const bool drums = coupling::geometry_of(runs.first.compared.profiles) == Geometry::drum;
   const ComparisonReport report = drums ? drum_report(runs, options) : layer_report(runs, options);
 
   std::vector<fs::path> read{options.run, options.flow_run};

@@ -78,8 +78,7 @@ std::string target_summary(const Json& content) {
 }  // namespace
 
 ComparisonReport drum_report(const ComparedRuns& runs, const CompareOptions& options) {
-  const coupling::ComparisonOptions how{
-      options.registration == "surface" ? coupling::Registration::surface : coupling::Registration::axis, {}};
+  const coupling::ComparisonOptions how{*enumerator<coupling::Registration>(options.registration), {}};
   coupling::Comparison comparison = compare(runs.first.compared, runs.second.compared, how);
   std::optional<coupling::Comparison> floor;
   if (runs.floor) {

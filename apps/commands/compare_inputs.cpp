@@ -55,7 +55,7 @@ LoadedSide load_side(const fs::path& folder, Unsteady unsteady, MovingSnapshots 
   side.folder = folder;
   if (fs::is_directory(folder) && is_flow_run(folder)) {
     FlowRun flow = read_flow_run(folder, FlowGeometry::any);
-    side.kind = "continuum";
+    side.kind = RunSide::continuum;
     side.name = flow.name;
     side.scales = flow.scales;
     side.maps_file = checked_file(flow.files, "maps.h5");
@@ -63,7 +63,6 @@ LoadedSide load_side(const fs::path& folder, Unsteady unsteady, MovingSnapshots 
     side.compared = {std::move(flow.profiles), std::move(flow.scalars), {}};
   } else {
     MeasuredRun run = read_measured_run(folder, unsteady);
-    side.kind = "particles";
     side.name = run.name;
     side.scales = run.scales;
     side.unsteady = run.unsteady;
@@ -76,7 +75,7 @@ LoadedSide load_side(const fs::path& folder, Unsteady unsteady, MovingSnapshots 
     if (!side.moving.empty()) side.snapshot = side.moving.back();
   }
   // Layers are the same everywhere along x.
-  if (coupling::geometry_of(side.compared.profiles) == "drum")
+  if (coupling::geometry_of(side.compared.profiles) == Geometry::drum)
     side.compared.fields.maps = maps_in(side.maps_file, side.compared.profiles);
   if (!side.compared.fields.maps) side.maps_file.clear();
   return side;
@@ -101,7 +100,8 @@ Json records_of(const LoadedSide& side) {
   const auto record = [&](const fs::path& file, const char* format) {
     return fs::exists(file) ? read_json(file, format) : Json();
   };
-  if (side.kind == "continuum") return {{"flow", record(side.folder / "flow.json", "drumlin-flow-run-2")}};
+  if (side.kind == RunSide::continuum)
+    return {{"flow", record(side.folder / "flow.json", "drumlin-flow-run-2")}};
   return {{"run", record(side.folder / "run.json", "drumlin-run-1")},
           {"measured", record(side.folder / "measured" / "measured.json", "drumlin-measured-1")}};
 }

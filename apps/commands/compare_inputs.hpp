@@ -13,7 +13,7 @@ namespace drumlin::apps {
 /// One folder, read.
 struct LoadedSide {
   coupling::ComparedSide compared;
-  std::string kind;  ///< "particles" or "continuum"
+  RunSide kind = RunSide::particles;
   std::string name;  ///< of the folder
   std::filesystem::path folder;
   Scales scales;

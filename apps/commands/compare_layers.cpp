@@ -33,8 +33,7 @@ std::string layer_summary(const Json& content) {
 }  // namespace
 
 ComparisonReport layer_report(const ComparedRuns& runs, const CompareOptions& options) {
-  const auto by =
-      options.registration == "surface" ? coupling::Registration::surface : coupling::Registration::axis;
+  const auto by = *enumerator<coupling::Registration>(options.registration);
   const coupling::LayerOptions how;
   const coupling::LayerComparison comparison =
       coupling::compare_layers(runs.first.compared, runs.second.compared, by, how);

@@ -24,7 +24,8 @@ Json header_of(const ProfileSet& profiles) {
 
 /// What a side is and where it comes from.
 Json origin_of(const LoadedSide& side) {
-  Json origin{{"kind", side.kind}, {"name", side.name}, {"profiles", header_of(side.compared.profiles)}};
+  Json origin{
+      {"kind", name_of(side.kind)}, {"name", side.name}, {"profiles", header_of(side.compared.profiles)}};
   if (!side.unsteady.empty()) origin["unsteady"] = side.unsteady;
   const Json records = records_of(side);
   origin["run"] = entry(records, "run");
@@ -36,7 +37,7 @@ Json origin_of(const LoadedSide& side) {
 /// Seconds of a side: how long until its results stood there, and on how much of a processor.
 Json seconds_of(const LoadedSide& side) {
   const Json records = records_of(side);
-  if (side.kind == "continuum")
+  if (side.kind == RunSide::continuum)
     return {{"wall", entry(entry(records, "flow"), "seconds")},
             {"processor", entry(entry(records, "flow"), "cpu_seconds")},
             {"measurement", nullptr}};
@@ -54,11 +55,12 @@ Json ratio(const Json& above, const Json& below) {
 
 void add_costs(Json& content, const ComparedRuns& runs) {
   const Json first = seconds_of(runs.first), second = seconds_of(runs.second);
-  content["costs"] = {{runs.first.kind + " run, wall", first["wall"]},
-                      {runs.first.kind + " run, processor", first["processor"]},
+  const std::string run = name_of(runs.first.kind), solve = name_of(runs.second.kind);
+  content["costs"] = {{run + " run, wall", first["wall"]},
+                      {run + " run, processor", first["processor"]},
                       {"measurement, wall", first["measurement"]},
-                      {runs.second.kind + " solve, wall", second["wall"]},
-                      {runs.second.kind + " solve, processor", second["processor"]}};
+                      {solve + " solve, wall", second["wall"]},
+                      {solve + " solve, processor", second["processor"]}};
   content["cost_ratio"] = {{"wall", ratio(first["wall"], second["wall"])},
                            {"processor", ratio(first["processor"], second["processor"])}};
 }
@@ -67,8 +69,8 @@ std::string title_of(const ComparedRuns& runs) {
   Json title = entry(entry(records_of(runs.first), "run"), "title");
   if (!title.is_string()) title = runs.first.name;
   const bool reduced = runs.first.compared.profiles.header.reduced.value();
-  return fmt::format("{}: {} and {}{}", title.get<std::string>(), runs.first.kind, runs.second.kind,
-                     reduced ? " (reduced)" : "");
+  return fmt::format("{}: {} and {}{}", title.get<std::string>(), name_of(runs.first.kind),
+                     name_of(runs.second.kind), reduced ? " (reduced)" : "");
 }
 
 void add_origins(Json& content, const ComparedRuns& runs) {

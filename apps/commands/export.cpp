@@ -58,7 +58,7 @@ int export_run(const ExportOptions& options) {
   print_out(fmt::format("{}{}: {} snapshots; open grains.pvd, contacts.pvd and walls.pvd in ParaView\n",
                         folder.string(), run.scene.reduced ? " (reduced)" : "", files.size()));
   if (!run.finished())
-    print_out(fmt::format("  the run is unfinished (status {}): as far as it went\n", run.status));
+    print_out(fmt::format("  the run is unfinished (status {}): as far as it went\n", name_of(run.status)));
   return static_cast<int>(ExitCode::done);
 }
 

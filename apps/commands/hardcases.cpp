@@ -69,17 +69,7 @@ void refuse_unknown(const std::vector<Listed>& all, const std::vector<std::strin
       throw InputError(fmt::format("hardcases: {}: no case of this name (allowed: {})", name, allowed));
 }
 
-const char* relation_sign(Relation relation) {
-  switch (relation) {
-    case Relation::equals:
-      return "";
-    case Relation::at_most:
-      return "<= ";
-    case Relation::at_least:
-      return ">= ";
-  }
-  return "?";
-}
+constexpr std::array relation_signs{"", "<= ", ">= "};  // as in Relation
 
 const char* verdict(bool good) { return good ? "ok" : "FAILED"; }
 
@@ -89,11 +79,12 @@ void print_result(const HardCase& hard, const HardResult& result) {
   for (std::size_t k = 0; k < result.checks.size(); ++k) {
     const HardCheck& check = result.checks[k];
     const bool first = k == 0;
-    print_out(fmt::format(row, first ? hard.name : "", check.what,
-                          fmt::format("{}{:.6g}", relation_sign(check.relation), check.expected),
-                          fmt::format("{:.6g}", check.got),
-                          check.relation == Relation::equals ? fmt::format("{:.1e}", check.tolerance) : "",
-                          first ? fmt::format("{:.2f}", result.seconds) : "", verdict(check.holds())));
+    print_out(fmt::format(
+        row, first ? hard.name : "", check.what,
+        fmt::format("{}{:.6g}", relation_signs[static_cast<std::size_t>(check.relation)], check.expected),
+        fmt::format("{:.6g}", check.got),
+        check.relation == Relation::equals ? fmt::format("{:.1e}", check.tolerance) : "",
+        first ? fmt::format("{:.2f}", result.seconds) : "", verdict(check.holds())));
   }
   flush_out();
 }

@@ -181,7 +181,7 @@ int history(const HistoryOptions& options) {
   print_out(
       fmt::format("{}{}: {} snapshots\n", folder.string(), run.scene.reduced ? " (reduced)" : "", done));
   if (!run.finished())
-    print_out(fmt::format("  the run is unfinished (status {}): as far as it went\n", run.status));
+    print_out(fmt::format("  the run is unfinished (status {}): as far as it went\n", name_of(run.status)));
   return static_cast<int>(ExitCode::done);
 }
 

@@ -12,6 +12,7 @@
 #include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/files/text_file.hpp"
+#include "coupling/common/run_status.hpp"
 #include "particles/import/import_run.hpp"
 #include "particles/io/snapshot_file.hpp"
 
@@ -26,7 +27,7 @@ Json report_of(const particles::ImportDescription& description, const fs::path& 
   return {{"format", "drumlin-run-1"},
           {"title", description.title},
           {"reduced", description.reduced},
-          {"status", "finished"},
+          {"status", name_of(RunStatus::finished)},
           {"imported", true},
           {"imported_from",
            {{"description", file.filename().string()},
@@ -50,8 +51,9 @@ void print_summary(const fs::path& run, const particles::ImportDescription& desc
                         report.first_time_s, report.last_time_s));
   print_out(fmt::format("  d = {:.6g} mm, sqrt(d/g) = {:.6g} s; velocities are those {}\n",
                         report.scales.length_m * 1e3, report.scales.time_s,
-                        description.grains.velocities == "given" ? "at the instant of the snapshot"
-                                                                 : "since the snapshot before"));
+                        description.grains.velocities == particles::ImportedVelocities::given
+                            ? "at the instant of the snapshot"
+                            : "since the snapshot before"));
   if (report.with_contacts)
     print_out(fmt::format("  {} contacts that carry a force\n", report.contacts));
   else

@@ -56,7 +56,8 @@ int plot(const PlotOptions& options) {
   output.publish();
   print_out(fmt::format("{}{}\n", folder.string(), run.scene.reduced ? " (reduced)" : ""));
   if (!run.finished())
-    print_out(fmt::format("  the run is unfinished (status {}): drawn as far as it went\n", run.status));
+    print_out(
+        fmt::format("  the run is unfinished (status {}): drawn as far as it went\n", name_of(run.status)));
   if (run.snapshots.empty()) print_out("  the run holds no snapshots: no pictures of grains\n");
   for (const auto& [file, shows] : drawn["figures"].items())
     print_out(fmt::format("  {:16} {}\n", file, shows.get<std::string>()));

@@ -133,7 +133,7 @@ Json stages_of(const particles::Scene& scene) {
 Json drawing_of(const particles::RunFolder& run, const Json& report, const PlotOptions& options) {
   Json drawing{{"title", run.scene.title.empty() ? run.folder.filename().string() : run.scene.title},
                {"reduced", run.scene.reduced},
-               {"status", run.status},
+               {"status", name_of(run.status)},
                {"run", report},
                {"log", checked_file(run.files, "log.csv").string()},
                {"energy", nullptr},

@@ -75,7 +75,7 @@ class ParticleRun {
     cpu_before_ = own_cpu_seconds();
     steps_before_ = simulation_.state().step;
     followers_.begin(options_.output, goes_on_, options_.threads, simulation_);
-    write_report("running");
+    write_report(RunStatus::running);
     while (!simulation_.finished()) {
       advance();
       if (simulated_seconds() >= next_checkpoint_s_) save_checkpoint();
@@ -92,7 +92,7 @@ class ParticleRun {
         return stop_for(by.signal);
       }
     }
-    write_report("finished");
+    write_report(RunStatus::finished);
     fs::remove(options_.output / passed_over_checkpoint_name);
     output_.finish();
     progress_.show(line_of_progress());
@@ -122,7 +122,7 @@ class ParticleRun {
     try {
       last_ = followers_.step(simulation_);
     } catch (const NotConvergedError& error) {  // the step could not be taken, or leaves no state
-      fail("not converged", error.what(), simulation_.state().step + 1);
+      fail(RunStatus::not_converged, error.what(), simulation_.state().step + 1);
     }
     const auto& state = simulation_.state();
     const bool converged = particles::is_converged(last_);
@@ -135,7 +135,7 @@ class ParticleRun {
                        (fatal && scene_.solver.capture_unconverged > 0)))
       capture_problem();
     if (const auto fault = particles::fault_of(last_, scene_.solver))
-      fail(fault->kind, fault->why, state.step);
+      fail(fault->status, fault->why, state.step);
     if (simulation_.wall_loads_due()) write_wall_loads();
     if (simulation_.snapshot_due()) save_snapshot();
   }
@@ -235,7 +235,7 @@ class ParticleRun {
 
   RunProgress progress_now() const { return {scene_, simulation_, totals_now(), options_.threads}; }
 
-  void write_report(const std::string& status) {
+  void write_report(RunStatus status) {
     costs_ = followers_.costs();
     nlohmann::ordered_json report = run_report(progress_now(), status);
     if (!stretches_.is_null()) report["accuracy"]["stretches"] = stretches_;
@@ -262,7 +262,7 @@ class ParticleRun {
   int stop_for(int signal) {
     save_checkpoint();
     writer_.wait();
-    write_report("interrupted");
+    write_report(RunStatus::interrupted);
     progress_.finish();
     print_error(fmt::format("interrupted after step {}; continue with --resume\n", simulation_.state().step));
     return exit_code_of(signal);
@@ -278,7 +278,7 @@ class ParticleRun {
   }
 
   /// The last step must not be built upon: no checkpoint of it is written.
-  [[noreturn]] void fail(const std::string& status, const std::string& why, std::int64_t step) {
+  [[noreturn]] void fail(RunStatus status, const std::string& why, std::int64_t step) {
     writer_.wait();
     log_.flush();
     if (energy_) energy_->flush();

@@ -4,7 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
+
+#include "apps/json/described.hpp"
+
+namespace drumlin::particles {
+DRUMLIN_DESCRIBED(StretchChange, change, ci99, error_at_most)
+}
 
 namespace drumlin::apps {
 namespace {
@@ -13,10 +18,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr double share_for_accuracy = 0.05;  // of the simulated time, as a first choice
 constexpr double cost_of_three = 5;          // stretches: 1 + 2 by the step + about 2 by the tolerance
-
-Json change_json(const particles::StretchChange& change) {
-  return {{"change", change.value}, {"ci99", change.ci99}, {"error_at_most", change.error_at_most}};
-}
 
 /// In per cent of the value: what was told apart from none with its interval, else a bound.
 std::string said(const Json& change, double value) {
@@ -33,8 +34,7 @@ std::string said(const Json& change, double value) {
 Json to_json(const particles::PairedStretches& stretches) {
   Json quantities = Json::object();
   for (const particles::StretchComparison& one : stretches.quantities)
-    quantities[one.quantity] = {
-        {"value", one.value}, {"step", change_json(one.step)}, {"solver", change_json(one.solver)}};
+    quantities[one.quantity] = {{"value", one.value}, {"step", one.step}, {"solver", one.solver}};
   return {{"seconds", stretches.seconds},
           {"cpu_seconds", stretches.cpu_seconds},
           {"cpu_seconds_plain", stretches.cost[0]},

@@ -88,7 +88,7 @@ nlohmann::ordered_json stage_ends(const RunProgress& run) {
     step += end.steps;
     time += static_cast<double>(end.steps) * run.simulation.plan().stages[s].time_step;
     ends.push_back({{"stage", run.scene.stages[s].name},
-                    {"ended_by", to_string(end.by)},
+                    {"ended_by", name_of(end.by)},
                     {"step", step},
                     {"time_s", time * run.simulation.scales().time_s}});
   }
@@ -181,14 +181,14 @@ ExitCode exit_code_of_missed(std::int64_t missed, std::int64_t steps) {
   return 2 * missed > steps ? ExitCode::not_converged : ExitCode::done;
 }
 
-nlohmann::ordered_json run_report(const RunProgress& run, const std::string& status) {
+nlohmann::ordered_json run_report(const RunProgress& run, RunStatus status) {
   const auto& state = run.simulation.state();
   const double steps = std::max<double>(1, static_cast<double>(state.step));
   nlohmann::ordered_json report;
   report["format"] = "drumlin-run-1";
   report["title"] = run.scene.title;
   report["reduced"] = run.scene.reduced;
-  report["status"] = status;
+  report["status"] = name_of(status);
   report["wall_seconds"] = run.totals.wall_seconds;
   report["cpu_seconds"] = run.totals.cpu_seconds;
   report["peak_memory_mb"] = own_peak_memory_mb();

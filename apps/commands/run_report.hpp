@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/run_status.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/scene/scene.hpp"
 
@@ -37,7 +38,7 @@ inline constexpr double unseen_missed_share = 0.01;
 ExitCode exit_code_of_missed(std::int64_t missed, std::int64_t steps);
 
 /// The content of run.json (docs/formats/run.md).
-nlohmann::ordered_json run_report(const RunProgress&, const std::string& status);
+nlohmann::ordered_json run_report(const RunProgress&, RunStatus status);
 
 /// What a user must know before the results are used: steps that missed a tolerance, overlap that discs
 /// should not have, a start that overlaps. None where all holds.

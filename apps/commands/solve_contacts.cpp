@@ -107,7 +107,7 @@ void print_changes(const particles::StateChanges& changes, int sweeps) {
 void print_json(const particles::ContactProblemFile& file, const Solved& solved,
                 const SolveContactsOptions& options) {
   const auto& report = solved.report;
-  nlohmann::ordered_json printed = {{"status", particles::to_string(report.status)},
+  nlohmann::ordered_json printed = {{"status", name_of(report.status)},
                                     {"residual", report.residual.rms},
                                     {"residual_max", report.residual.max},
                                     {"sweeps", report.sweeps},
@@ -135,9 +135,8 @@ void print_text(const particles::ContactProblemFile& file, const Solved& solved,
                           file.asymmetry));
   print_out(fmt::format(
       "{} contacts{}, {}: {} after {} sweeps, {:.3g} s; residual {:.3g} (tolerance {:g}), largest {:.3g}\n",
-      file.problem.contacts(), solved.of_discs ? " of discs" : "", options.solver,
-      particles::to_string(report.status), report.sweeps, report.seconds, report.residual.rms,
-      options.tolerance, report.residual.max));
+      file.problem.contacts(), solved.of_discs ? " of discs" : "", options.solver, name_of(report.status),
+      report.sweeps, report.seconds, report.residual.rms, options.tolerance, report.residual.max));
   print_backward_errors(solved);
   if (solved.changes) print_changes(*solved.changes, *options.watch);
 }

@@ -51,10 +51,10 @@ Json compared_pairs(const std::vector<LoadedSide>& sides, bool for_limits) {
   std::vector<coupling::Registration> registrations{coupling::Registration::axis};
   if (for_limits) registrations.push_back(coupling::Registration::surface);
   for (const LoadedSide& flow : sides) {
-    if (flow.kind != "continuum") continue;
+    if (flow.kind != RunSide::continuum) continue;
     std::vector<const LoadedSide*> near;
     for (const LoadedSide& run : sides)
-      if (run.kind != "continuum" && std::abs(rotation_of(run) / rotation_of(flow) - 1) <= 0.011)
+      if (run.kind != RunSide::continuum && std::abs(rotation_of(run) / rotation_of(flow) - 1) <= 0.011)
         near.push_back(&run);
     for (const auto by : registrations)
       for (std::size_t i = 0; i < near.size(); ++i) {
@@ -84,7 +84,7 @@ Json given_of(const StudyRequest& request) {
   for (const fs::path& folder : request.folders) {
     LoadedSide& side = sides.emplace_back(load_side(folder, Unsteady::accept, MovingSnapshots::leave));
     side.compared.fields.slices.clear();
-    const bool is_flow = side.kind == "continuum";
+    const bool is_flow = side.kind == RunSide::continuum;
     if (is_flow && !request.both_sides)
       throw InputError(folder.string() + ": is a flow (allowed: measured runs)");
     const fs::path scene = folder / (is_flow ? "flow_scene.toml" : "scene.toml");

@@ -24,7 +24,7 @@ int main() {
   rule.max_sweeps = 10000;
   const SolvedContacts solved = solve_contacts(problem, rule);
   const std::vector<double>&r = solved.solution.impulses, &u = solved.solution.velocities.contacts;
-  std::printf("%s after %d sweeps, residual %.1e\n", to_string(solved.report.status).c_str(),
+  std::printf("%s after %d sweeps, residual %.1e\n", drumlin::name_of(solved.report.status),
               solved.report.sweeps, solved.report.residual.rms);
   for (int a = 0; a < problem.contacts(); ++a)
     std::printf("contact %d: impulse %8.5f normal, %8.5f tangential; velocity %8.5f, %8.5f\n", a, r[2 * a],

@@ -245,7 +245,7 @@ Json flow_json(const FinishedFlow& flow) {
   const continuum::MeshResult& result = flow.meshes.back();
   const continuum::FlowReport& report = flow.solution.report;
   Json content{{"format", flow_format}, {"reduced", flow.asked.reduced()}};
-  content["geometry"] = flow.asked.flow_case.geometry;
+  content["geometry"] = name_of(flow.asked.flow_case.geometry);
   add_scalars(content, result.scalars);
   add_scalars(content, flow.asked.flow_case.given);
   content["ill_posed_share"] = flow.findings.ill_posed_share();

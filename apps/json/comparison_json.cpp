@@ -4,14 +4,12 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "apps/json/enum_name.hpp"
 #include "apps/json/json_file.hpp"
 #include "coupling/documents/json_numbers.hpp"
 
 namespace drumlin::apps {
 
 using Json = nlohmann::ordered_json;
-using Outcome = coupling::Target::Outcome;
 
 namespace {
 
@@ -110,16 +108,6 @@ Json to_json(const coupling::ScalarPair& pair) {
 
 }  // namespace
 
-std::string name_of(Outcome outcome) {
-  constexpr EnumName<Outcome> names[] = {
-      {Outcome::met, "met"}, {Outcome::missed, "missed"}, {Outcome::not_measured, "not_measured"}};
-  return enum_name(names, outcome);
-}
-
-std::string name_of(coupling::Registration by) {
-  return by == coupling::Registration::axis ? "axis" : "surface";
-}
-
 Json to_json(const coupling::Target& target) {
   Json json{{"quantity", target.quantity}};
   if (!target.zone.empty()) json["zone"] = target.zone;
@@ -127,9 +115,9 @@ Json to_json(const coupling::Target& target) {
   json["limit"] = target.limit;
   json["value"] = number_or_null(target.value);
   json["outcome"] = name_of(target.outcome);
-  const bool noisy = target.judged_by == coupling::Target::JudgedBy::noise_floor;
-  json["judged_by"] = noisy ? "noise floor" : "limit";
-  if (noisy) json["noise_floor"] = number_or_null(target.noise_floor);
+  json["judged_by"] = name_of(target.judged_by);
+  if (target.judged_by == coupling::JudgedBy::noise_floor)
+    json["noise_floor"] = number_or_null(target.noise_floor);
   if (!target.remark.empty()) json["remark"] = target.remark;
   return json;
 }
@@ -139,7 +127,7 @@ Json counts_of(const std::vector<coupling::Target>& targets) {
   const auto count = [&](const std::string& what) { counts[what] = counts[what].get<int>() + 1; };
   for (const coupling::Target& target : targets) {
     count(name_of(target.outcome));
-    if (target.judged_by == coupling::Target::JudgedBy::noise_floor) count("by_noise_floor");
+    if (target.judged_by == coupling::JudgedBy::noise_floor) count("by_noise_floor");
   }
   return counts;
 }
@@ -173,7 +161,7 @@ void add_layer_comparison(Json& content, const coupling::LayerComparison& compar
   };
   Json scalars;
   for (const auto& pair : comparison.scalars) scalars[pair.name] = to_json(pair);
-  content["geometry"] = comparison.geometry;
+  content["geometry"] = name_of(comparison.geometry);
   content["registration"] = {
       {"by", comparison.registration == coupling::Registration::axis ? "base" : "surface"},
       {"offset", number_or_null(comparison.offset)},

@@ -10,9 +10,6 @@
 
 namespace drumlin::apps {
 
-std::string name_of(coupling::Target::Outcome outcome);  ///< "met", "missed", "not_measured"
-std::string name_of(coupling::Registration by);          ///< "axis", "surface"
-
 /// Quantity, zone (of a field), measure, limit, value, outcome, and the remark where there is one.
 nlohmann::ordered_json to_json(const coupling::Target& target);
 

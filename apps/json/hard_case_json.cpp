@@ -3,16 +3,12 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "coupling/documents/enum_names.hpp"
 #include "coupling/documents/json_numbers.hpp"
 
 namespace drumlin::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr EnumNames<Relation, 3> relations = {
-    {{Relation::equals, "equals"}, {Relation::at_most, "at_most"}, {Relation::at_least, "at_least"}}};
 
 double number(const Json& value) { return number_or_nan(value).value(); }
 
@@ -22,7 +18,7 @@ Json to_json(const HardCase& hard, const HardResult& result) {
   Json checks = Json::array();
   for (const HardCheck& check : result.checks)
     checks.push_back({{"what", check.what},
-                      {"relation", name_in(relations, check.relation)},
+                      {"relation", name_of(check.relation)},
                       {"expected", check.expected},
                       {"got", check.got},
                       {"tolerance", check.tolerance},
@@ -44,8 +40,7 @@ HardRow hard_row(const Json& json) {
                    .got = number(check.at("got")),
                    .tolerance = number(check.at("tolerance")),
                    .reason = check.at("reason").get<std::string>()};
-    for (const auto& [value, name] : relations)
-      if (check.at("relation") == name) read.relation = value;
+    read.relation = enumerator<Relation>(check.at("relation").get<std::string>()).value();
     row.result.checks.push_back(std::move(read));
   }
   return row;

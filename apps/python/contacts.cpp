@@ -70,7 +70,7 @@ py::dict solved(const particles::MatrixProblem& of, double tolerance, double max
   const auto& report = result.report;
   return py::dict(py::arg("r") = array_of(result.solution.impulses),
                   py::arg("u") = array_of(result.solution.velocities.contacts),
-                  py::arg("status") = particles::to_string(report.status),
+                  py::arg("status") = name_of(report.status),
                   py::arg("converged") = report.status == particles::Status::converged,
                   py::arg("sweeps") = report.sweeps, py::arg("seconds") = report.seconds,
                   py::arg("residual") = report.residual.rms, py::arg("residual_max") = report.residual.max,

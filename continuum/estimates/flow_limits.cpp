@@ -69,7 +69,7 @@ FlowOnFinerMeshes add_meshes(const FlowScene& scene, const FlowCase& flow_case, 
                              const FlowObserver& observer,
                              const std::function<void(double imbalance)>& adding) {
   FlowOnFinerMeshes finer{.imbalance = {}, .failure = {}, .checks = flow_case.checks(solution.field)};
-  if (flow_case.geometry != "drum") return finer;
+  if (flow_case.geometry != Geometry::drum) return finer;
   const FlowSolverOptions options = solver_options(scene);
   for (;;) {
     finer.imbalance.push_back(finer.checks.value("flux_imbalance"));

@@ -142,7 +142,8 @@ class Continuation {
     const int start = neighbour_ ? take_over_neighbour() : 0;
     for (int mesh = first_ == First::finer ? start + 1 : start; mesh < options_.levels; ++mesh) {
       if (mesh > start) refine();
-      if (!solve_mesh(mesh, mesh > start ? "refined" : report_.start)) return finished(false);
+      if (!solve_mesh(mesh, mesh > start ? "refined" : neighbour_ ? "neighbour" : nullptr))
+        return finished(false);
       report_.failure.clear();
       if (observer_.level_finished)
         clock_(Work::evaluation, [&] { observer_.level_finished(mesh, field_of(level_)); });
@@ -168,17 +169,18 @@ class Continuation {
     });
   }
 
-  bool solve_mesh(int mesh, const std::string& start) {
+  // `start`: the phase that begins; null: cold.
+  bool solve_mesh(int mesh, const char* start) {
     FlowSolverOptions here = options_;
     if (!is_last(mesh)) here.tolerance = std::max(options_.tolerance, options_.coarse_tolerance);
     const FlowSolverOptions whole = here;
     if (problem_.moving_surface) here = loosely_solved(problem_, here);
     Newton newton(problem_, here, discretisation(), mesh, begun_, clock_, report_, observer_);
     level_->state.held = nullptr;
-    if (problem_.memory && start != "cold" && solve_remembering(newton, start, here))
+    if (problem_.memory && start != nullptr && solve_remembering(newton, start, here))
       return !problem_.moving_surface || move_surface(mesh, whole, here);
-    if (!(start == "cold" ? solve_cold(newton, here, *level_)
-                          : solve_from(start, newton, here, *level_, /*starts_nearby=*/true)))
+    if (!(start == nullptr ? solve_cold(newton, here, *level_)
+                           : solve_from(start, newton, here, *level_, /*starts_nearby=*/true)))
       return false;
     if (fem::holds_fields(problem_)) {
       if (observer_.solved_plain && is_last(mesh) && !problem_.memory)
@@ -229,8 +231,7 @@ class Continuation {
         .stepped = observer_.surface_step,
         .tolerance = is_last(mesh) ? 0 : options_.coarse_surface_tolerance};
     // A coarser mesh whose ends are resolved too badly to converge is still a start for the next.
-    return fem::solve_surface(solver, *level_, mesh, report_) ||
-           (!is_last(mesh) && report_.failure != "interrupted");
+    return fem::solve_surface(solver, *level_, mesh, report_) || (!is_last(mesh) && !report_.interrupted);
   }
 
   FlowSolution finished(bool converged) {
@@ -277,7 +278,7 @@ FlowSolution solve_flow(const FlowProblem& problem, const FlowSolverOptions& opt
 FlowSolution solve_flow_from(const FlowState& neighbour, const FlowProblem& problem,
                              const FlowSolverOptions& options, const FlowObserver& observer) {
   FlowSolution from = solve(problem, options, observer, &neighbour);
-  if (from.report.converged || from.report.failure == "interrupted") return from;
+  if (from.report.converged || from.report.interrupted) return from;
 
   FlowSolution cold = solve(problem, options, observer, nullptr);
   FlowReport& report = cold.report;

@@ -81,8 +81,9 @@ struct PhaseSeconds {
 
 struct FlowReport {
   bool converged = false;
-  std::string failure;  ///< which phase, residual and last step; empty when converged
-  std::string start;    ///< "cold", "neighbour", or why the neighbour did not serve
+  bool interrupted = false;  ///< by the observer: what ended it
+  std::string failure;       ///< which phase, residual and last step; empty when converged
+  std::string start;         ///< "cold", "neighbour", or why the neighbour did not serve
   double residual = 0;
   int iterations = 0;  ///< over all phases and meshes
   int meshes = 0;      ///< from the coarsest one on, also those that a neighbour made superfluous

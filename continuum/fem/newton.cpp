@@ -231,6 +231,7 @@ bool Newton::iterate(const Phase& phase, State& state) {
   for (line.iteration = 1; line.iteration <= options_.max_iterations; ++line.iteration) {
     if (was_interrupted()) {
       report_.failure = "interrupted";
+      report_.interrupted = true;
       return false;
     }
     const auto step = newton_step(phase, state);

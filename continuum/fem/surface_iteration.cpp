@@ -96,7 +96,7 @@ class Iteration {
   SurfaceMisfit misfit() const {
     return surface_misfit(level_.problem, *level_.discretisation, level_.state);
   }
-  bool interrupted() const { return report_.failure == "interrupted"; }
+  bool interrupted() const { return report_.interrupted; }
 
   bool settle(Settling how) {
     const int iterations = report_.iterations;
@@ -189,7 +189,7 @@ bool solve_surface(const SurfaceSolver& solver, SolvedLevel& level, int mesh, Fl
       return false;
     }
     if (iteration.step()) continue;
-    if (report.failure != "interrupted")
+    if (!report.interrupted)
       report.failure = state + ", and no step lessens that" +
                        (report.failure.empty() ? "" : " (last failure: " + report.failure + ")");
     return false;

@@ -58,7 +58,7 @@ Gap gap_of(const FlowIncline& incline, const Scales& scales, double nu) {
           .nu = nu,
           .weight = nu,
           .slope = incline.slope_deg * degree,
-          .name = "incline",
+          .geometry = Geometry::incline,
           .scalars = {"theta_deg", "Q", "surface_speed", "mean_speed", "I", "mu_wall"}};
 }
 
@@ -67,7 +67,7 @@ Gap gap_of(const FlowPlaneShear& shear, const Scales& scales, double nu) {
           .nu = nu,
           .pressure = in_weights(scales, shear.pressure_pa),
           .speed = in_diameters(scales, shear.wall_speed_mm_s) * scales.time_s,
-          .name = "plane_shear",
+          .geometry = Geometry::plane_shear,
           .scalars = {"shear_rate", "I", "mu_wall"}};
 }
 
@@ -78,7 +78,7 @@ Gap gap_of(const FlowChute& chute, const Scales& scales, double nu) {
           .slope = std::numbers::pi / 2,
           .pressure = in_weights(scales, chute.pressure_pa),
           .flows_at_wall = true,
-          .name = "chute",
+          .geometry = Geometry::chute,
           .scalars = {"Q", "surface_speed", "mean_speed", "mu_wall"}};
 }
 
@@ -89,7 +89,7 @@ Gap gap_of(const FlowAnnulus& ring, const Scales& scales, double nu) {
           .nu = nu,
           .pressure = in_weights(scales, ring.pressure_pa),
           .speed = ring.rotation_rpm * std::numbers::pi / 30 * scales.time_s * inner,
-          .name = "annulus",
+          .geometry = Geometry::annulus,
           .scalars = {"Q", "torque", "mu_wall", "lambda"}};
 }
 

@@ -6,6 +6,7 @@
 
 #include "continuum/model/flow_problem.hpp"
 #include "continuum/model/flow_scene.hpp"
+#include "coupling/common/geometry.hpp"
 #include "coupling/law/rheology_fit.hpp"
 
 namespace drumlin::continuum {
@@ -22,7 +23,7 @@ struct Gap {
   double pressure = 0;               ///< sigma_zz at the top, rho0 g d; in an annulus everywhere
   std::optional<double> speed = {};  ///< of the driven wall; absent: no shear stress at the top
   bool flows_at_wall = false;        ///< the shear is strongest at the wall at rest: there the mesh is fine
-  std::string name = {};             ///< of the table of the scene
+  Geometry geometry = Geometry::incline;
   /// Names of the results that mean something here (continuum/postprocessing/gap_profiles.hpp).
   std::vector<std::string> scalars = {};
 };

@@ -16,7 +16,6 @@ FlowCase drum_case(const FlowScene& scene, const RheologyFit& law) {
   const DrumGeometry drum = drum_geometry(scene, law.nu);
   const SliceOptions slice{scene.output.slice_width.value(), scene.output.layer_thickness};
   FlowCase result;
-  result.geometry = "drum";
   result.summary = fmt::format("drum, R = {:.2f} d, axis {:.2f} d above the surface, Omega = {:.5f}",
                                drum.radius, drum.axis_offset, drum.rotation);
   result.problem = drum_problem(scene, law);
@@ -55,8 +54,9 @@ bool has_closed_form(const FlowProblem& problem) {
 FlowCase gap_case(const FlowScene& scene, const RheologyFit& law) {
   const Gap gap = gap_of(scene, law.nu);
   FlowCase result;
-  result.geometry = gap.name;
-  result.summary = fmt::format("{}, {:.2f} d from the top to the wall at rest", gap.name, gap.depth);
+  result.geometry = gap.geometry;
+  result.summary =
+      fmt::format("{}, {:.2f} d from the top to the wall at rest", name_of(gap.geometry), gap.depth);
   result.problem = gap_problem(scene, law);
   result.given = {{{"nu", gap.nu, {}}}};
   result.settings = {{{"gap", gap.depth, {}}}};

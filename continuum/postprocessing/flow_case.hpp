@@ -15,7 +15,7 @@
 namespace drumlin::continuum {
 
 struct FlowCase {
-  std::string geometry;                                        ///< name of the table of the scene
+  Geometry geometry = Geometry::drum;
   std::string summary;                                         ///< one line: the geometry in d and sqrt(d/g)
   FlowProblem problem;                                         ///< complete: nothing is added to it
   double law_I_max = std::numeric_limits<double>::infinity();  ///< largest I that its law was measured at

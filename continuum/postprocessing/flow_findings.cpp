@@ -28,7 +28,7 @@ double share_of_eps(const FlowFindings& findings, const FlowProblem& problem) {
 FlowFindings findings_of(const FlowCase& flow_case, const FlowField& field, ScalarSet checks) {
   FlowFindings findings{.sums = field.integrals({}, flow_case.law_I_max), .checks = std::move(checks)};
   if (flow_case.closed_form) findings.closed_form = flow_case.closed_form(field);
-  if (flow_case.geometry == "drum") findings.neglected = neglected_terms(field);
+  if (flow_case.geometry == Geometry::drum) findings.neglected = neglected_terms(field);
   findings.eps_share = share_of_eps(findings, flow_case.problem);
   findings.checks.scalars.push_back({"eps_share", findings.eps_share, {}});
   return findings;

@@ -199,11 +199,6 @@ NormalStressRatio measured_stress_ratio(const FrictionForm& form, const Coeffici
   return {form.knots, values_at_knots(law)};
 }
 
-std::string name_of(FormKind kind) {
-  constexpr std::array names{"log", "log-linear", "table", "stress-ratio", "turn"};  // as in FormKind
-  return names[static_cast<std::size_t>(kind)];
-}
-
 FormKind form_named(const std::string& name) {
   for (const FormKind kind : {FormKind::log, FormKind::log_linear, FormKind::table})
     if (name == name_of(kind)) return kind;

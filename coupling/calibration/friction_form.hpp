@@ -19,6 +19,7 @@ namespace drumlin::coupling {
 /// over I. turn: k as well, fitted to the stress across the strain rate over the pressure, (k - 1)/(k + 1),
 /// measured over 2|D|/sqrt(p).
 enum class FormKind { log, log_linear, table, stress_ratio, turn };
+constexpr auto names_of(FormKind) { return std::array{"log", "log-linear", "table", "stress-ratio", "turn"}; }
 
 struct FrictionForm {
   FormKind kind = FormKind::log;
@@ -78,7 +79,6 @@ MeasuredFriction measured_friction(const FrictionForm& form, const Coefficients&
 /// k of `stress_ratio` or `turn` as it crosses to the continuum.
 NormalStressRatio measured_stress_ratio(const FrictionForm& form, const Coefficients& law);
 
-std::string name_of(FormKind kind);            ///< "log", "log-linear", "table", "stress-ratio", "turn"
 FormKind form_named(const std::string& name);  ///< of mu: the first three; throws InputError
 
 }  // namespace drumlin::coupling

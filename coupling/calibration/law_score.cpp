@@ -13,7 +13,7 @@ LawScore score_of(const std::string& run, const std::vector<FrictionPoint>& poin
   double squares = 0, inside = 0;
   for (const FrictionPoint& point : points) {
     if (point.I < law.I_min * (1 - 1e-9) || point.I > law.I_max * (1 + 1e-9)) {
-      ++score.outside;
+      ++score.outside_range;
       continue;
     }
     ++score.points;

@@ -274,8 +274,8 @@ MemoryScore memory_score(const PathsOfRun& run, const AxisMemory& law) {
     const auto root = [paths](double sum) { return std::sqrt(sum / paths); };
     zone->rms = root(squares);
     zone->axes_deg = root(angles);
-    zone->coaxial_rms = root(coaxial_squares);
-    zone->coaxial_axes_deg = root(coaxial_angles);
+    zone->rms_without_memory = root(coaxial_squares);
+    zone->axes_deg_without_memory = root(coaxial_angles);
   }
   return score;
 }

@@ -84,8 +84,8 @@ struct MemoryScore {
   struct Zone {
     std::size_t paths = 0;
     double rms = std::numeric_limits<double>::quiet_NaN();  ///< of |s/p - law|
-    double axes_deg = rms;                             ///< of the angle from the law's axes to the stress's
-    double coaxial_rms = rms, coaxial_axes_deg = rms;  ///< of mu(I) n, which remembers nothing
+    double axes_deg = rms;  ///< of the angle from the law's axes to the stress's
+    double rms_without_memory = rms, axes_deg_without_memory = rms;  ///< of mu(I) n, which remembers nothing
   };
   std::string run;
   Zone bed, flow;

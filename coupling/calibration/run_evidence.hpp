@@ -14,6 +14,7 @@ namespace drumlin::coupling {
 
 /// Where the points of a law come from: tensors of maps, or layers of profiles.
 enum class EvidenceSource { maps, profiles };
+constexpr auto names_of(EvidenceSource) { return std::array{"maps", "profiles"}; }
 
 /// Points of one run.
 struct RunEvidence {

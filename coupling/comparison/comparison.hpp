@@ -36,10 +36,14 @@ struct ScalarPair {
                                                                     ///< its own surface; NaN: it says nothing
 };
 
+/// What became of a target.
+enum class Outcome { met, missed, not_measured };
+constexpr auto names_of(Outcome) { return std::array{"met", "missed", "not_measured"}; }
+enum class JudgedBy { limit, noise_floor };
+constexpr auto names_of(JudgedBy) { return std::array{"limit", "noise floor"}; }
+
 /// What is asked of the continuum, and what it reached.
 struct Target {
-  enum class Outcome { met, missed, not_measured };
-  enum class JudgedBy { limit, noise_floor };
   std::string quantity;  ///< "sigma_zz", "theta_deg", ...
   std::string zone;      ///< empty for a scalar
   std::string measure;  ///< how the difference is taken: "rel_l2", "rms in decades", "difference in deg", ...

@@ -33,7 +33,7 @@ double dense_top(const ProfileSet& profiles) {
 Zone bulk_of(const ProfileSet& profiles, const LayerOptions& options) {
   const double wall = needed_number(profiles.header, &RunHeader::wall_z, "profiles.csv");
   // The middle of a chute is no end of the packing.
-  const bool half = geometry_of(profiles) == "chute";
+  const bool half = geometry_of(profiles) == Geometry::chute;
   const double top = !half                    ? dense_top(profiles) - options.top_margin
                      : is_continuum(profiles) ? 0
                                               : (wall + dense_top(profiles)) / 2;
@@ -136,7 +136,7 @@ std::vector<ScalarPair> layer_scalars(const ComparedSide& first, const ComparedS
       {"surface_speed", speed(first.profiles), said(first, "surface_speed").ci99, speed(registered),
        std::nullopt, said(second, "surface_speed").value}};
   // Half of a chute is solved, and all of it is measured.
-  if (comparison.geometry != "chute")
+  if (comparison.geometry != Geometry::chute)
     pairs.push_back({"Q", said(first, "Q").value, said(first, "Q").ci99, said(second, "Q").value,
                      said(second, "Q").ci99});
   const auto ours = bulk_means(comparison.fields, &FieldOverlay::particles, bulk),
@@ -148,20 +148,21 @@ std::vector<ScalarPair> layer_scalars(const ComparedSide& first, const ComparedS
 
 }  // namespace
 
-std::string geometry_of(const ProfileSet& profiles) {
-  if (number_or_nan(profiles.header, &RunHeader::drum_radius) > 0) return "drum";
-  return profiles.header.geometry.value_or("");
+std::optional<Geometry> geometry_of(const ProfileSet& profiles) {
+  if (number_or_nan(profiles.header, &RunHeader::drum_radius) > 0) return Geometry::drum;
+  return profiles.header.geometry;
 }
 
 void require_same_geometry(const ProfileSet& first, const ProfileSet& second) {
-  const std::string ours = geometry_of(first), theirs = geometry_of(second);
-  if (ours == theirs && !ours.empty()) return;
-  const auto named = [](const std::string& name) { return name.empty() ? std::string("none") : name; };
+  const auto ours = geometry_of(first), theirs = geometry_of(second);
+  if (ours && ours == theirs) return;
+  const auto named = [](std::optional<Geometry> one) { return one ? name_of(*one) : "none"; };
   throw InputError({InputProblem{
       "", 0, 0, "geometry", fmt::format("{} in the first side, {} in the second", named(ours), named(theirs)),
-      "the same on both sides (drum, plane_shear, incline, chute, annulus); layers that name none: measured "
-      "by "
-      "an older version, of a level bed, or pulled towards -x"}});
+      fmt::format(
+          "the same on both sides ({}); layers that name none: measured by an older version, of a level "
+          "bed, or pulled towards -x",
+          fmt::join(names_of(Geometry{}), ", "))}});
 }
 
 std::vector<Zone> layer_zones(const ProfileSet& first, const LayerOptions& options) {
@@ -179,7 +180,7 @@ std::vector<Zone> layer_zones(const ProfileSet& first, const LayerOptions& optio
 LayerExtent layer_extent(const ProfileSet& profiles, const LayerOptions& options) {
   if (is_continuum(profiles)) return {needed_number(profiles.header, &RunHeader::wall_z, "profiles.csv"), 0};
   LayerExtent extent = extent_of_packing(profiles, options);
-  if (geometry_of(profiles) == "chute") extent.top = (extent.base + extent.top) / 2;
+  if (geometry_of(profiles) == Geometry::chute) extent.top = (extent.base + extent.top) / 2;
   return extent;
 }
 
@@ -194,7 +195,7 @@ LayerComparison compare_layers(const ComparedSide& first, const ComparedSide& se
   require_same_geometry(first.profiles, second.profiles);
   require_same_layers(first.profiles, second.profiles);
   LayerComparison result;
-  result.geometry = geometry_of(first.profiles);
+  result.geometry = *geometry_of(first.profiles);
   result.registration = by;
   result.first = layer_extent(first.profiles, options);
   result.second = layer_extent(second.profiles, options);

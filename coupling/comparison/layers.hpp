@@ -8,9 +8,8 @@
 
 namespace drumlin::coupling {
 
-/// "drum" where there is one, else what the header says ("plane_shear", "incline", "chute", "annulus"); empty
-/// where it says nothing.
-std::string geometry_of(const ProfileSet& profiles);
+/// A drum where there is one, else what the header says, if anything.
+std::optional<Geometry> geometry_of(const ProfileSet& profiles);
 
 /// Throws InputError that names both geometries unless they are one and the same, and a known one.
 void require_same_geometry(const ProfileSet& first, const ProfileSet& second);
@@ -41,7 +40,7 @@ LayerExtent layer_extent(const ProfileSet& profiles, const LayerOptions& options
 const std::vector<std::string>& compared_layer_fields();
 
 struct LayerComparison {
-  std::string geometry;
+  Geometry geometry = Geometry::plane_shear;
   Registration registration = Registration::axis;  ///< axis: each from its own base, for layers have no axis
   double offset = 0;                               ///< added to the second side's z
   LayerExtent first, second;                       ///< each in its own z

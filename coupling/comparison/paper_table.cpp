@@ -50,9 +50,9 @@ double accepted_difference(const PaperNumber& number) {
   return no_value;
 }
 
-Target::Outcome outcome_of(double value, const PaperRow& row) {
-  if (std::isnan(value) || std::isnan(row.accepted)) return Target::Outcome::not_measured;
-  return std::abs(value - row.paper.value) <= row.accepted ? Target::Outcome::met : Target::Outcome::missed;
+Outcome outcome_of(double value, const PaperRow& row) {
+  if (std::isnan(value) || std::isnan(row.accepted)) return Outcome::not_measured;
+  return std::abs(value - row.paper.value) <= row.accepted ? Outcome::met : Outcome::missed;
 }
 
 }  // namespace

@@ -30,9 +30,9 @@ std::vector<PaperNumber> paper_numbers(const std::filesystem::path& folder, doub
 struct PaperRow {
   PaperNumber paper;
   ScalarPair ours;
-  double accepted = 0;  ///< largest difference that counts as agreement, absolute
-  Target::Outcome particles = Target::Outcome::not_measured;  ///< whether |particles - paper| <= accepted
-  Target::Outcome continuum = Target::Outcome::not_measured;
+  double accepted = 0;                        ///< largest difference that counts as agreement, absolute
+  Outcome particles = Outcome::not_measured;  ///< whether |particles - paper| <= accepted
+  Outcome continuum = Outcome::not_measured;
 };
 
 /// One row per number of the paper that one of the sides has. The accepted difference is the project's own

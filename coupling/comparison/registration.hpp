@@ -11,6 +11,7 @@ namespace drumlin::coupling {
 /// differently (the particles where nu crosses 0.7, the continuum along the chord of its fill): at 6 rpm
 /// 1.1 to 1.35 d apart.
 enum class Registration { axis, surface };
+constexpr auto names_of(Registration) { return std::array{"axis", "surface"}; }
 
 /// What has to be added to z of the second side to make it z of the first: the difference of both headers'
 /// axis_depth; 0 by the surface. NaN where a header has no axis.

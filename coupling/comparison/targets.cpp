@@ -11,8 +11,6 @@ namespace drumlin::coupling {
 
 namespace {
 
-using Outcome = Target::Outcome;
-
 struct FieldTarget {
   const char* field;
   const char* zone;
@@ -63,7 +61,7 @@ double interval_of(const FieldComparison& field, const std::string& name, bool r
 /// Judges a target whose value is known, by its limit or by what the particles leave open.
 void judge(Target& target, double open) {
   const bool noisy = open > target.limit;
-  target.judged_by = noisy ? Target::JudgedBy::noise_floor : Target::JudgedBy::limit;
+  target.judged_by = noisy ? JudgedBy::noise_floor : JudgedBy::limit;
   target.noise_floor = noisy ? open : no_value;
   target.outcome = outcome_of(target.value, noisy ? open : target.limit);
   if (noisy) add_remark(target, fmt::format("the particles' own interval amounts to {:.2g}", open));
@@ -119,7 +117,7 @@ std::vector<Target> judged_targets(const std::vector<FieldComparison>& fields,
 void judge_by_floor(std::vector<Target>& targets, const std::vector<Target>& floor) {
   for (std::size_t i = 0; i < targets.size(); ++i) {
     Target& target = targets[i];
-    if (target.judged_by == Target::JudgedBy::limit || !(floor[i].value > target.noise_floor)) continue;
+    if (target.judged_by == JudgedBy::limit || !(floor[i].value > target.noise_floor)) continue;
     target.noise_floor = floor[i].value;
     if (target.value <= target.noise_floor && !target.undefined) target.outcome = Outcome::met;
   }

@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 
+#include "coupling/common/enum_names.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/documents/one_line.hpp"
 
@@ -17,6 +18,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 enum class Kind { text, line, number, number_or_null, truth, table, table_or_null, list };
+constexpr auto names_of(Kind) {
+  return std::array{"a text",  "a text of one line", "a number", "a number or null", "true or false",
+                    "a table", "a table or null",    "an array"};
+}
 enum class Presence { optional, required };  ///< within a table that is there
 
 /// The values at a path; "*" stands for each entry of a table or list.
@@ -126,12 +131,6 @@ constexpr Rule of_points[] = {{"name", Kind::text, Presence::required},
 
 constexpr Rule of_plots[] = {{"figures", Kind::table, Presence::required}, {"figures.*", Kind::text}};
 
-constexpr Rule of_speeds[] = {{"speeds", Kind::list, Presence::required},
-                              {"speeds.*", Kind::table},
-                              {"speeds.*.scalars", Kind::table, Presence::required},
-                              {"speeds.*.targets", Kind::list, Presence::required},
-                              {"speeds.*.verdict", Kind::table, Presence::required}};
-
 std::span<const Rule> rules_of(const std::string& format) {
   static const std::map<std::string, std::span<const Rule>> all = {{"drumlin-run-1", of_runs},
                                                                    {"drumlin-measured-1", of_measurements},
@@ -139,8 +138,7 @@ std::span<const Rule> rules_of(const std::string& format) {
                                                                    {"drumlin-cost-1", of_records},
                                                                    {"drumlin-convergence-1", of_convergence},
                                                                    {"drumlin-cost-point-1", of_points},
-                                                                   {"drumlin-plots-1", of_plots},
-                                                                   {"drumlin-comparison-study-1", of_speeds}};
+                                                                   {"drumlin-plots-1", of_plots}};
   const auto found = all.find(format);
   return found == all.end() ? std::span<const Rule>() : found->second;
 }
@@ -169,13 +167,6 @@ bool is_of(const Json& value, Kind kind) {
   return false;
 }
 
-const char* words_of(Kind kind) {
-  static constexpr const char* words[] = {
-      "a text",  "a text of one line", "a number", "a number or null", "true or false",
-      "a table", "a table or null",    "an array"};
-  return words[static_cast<std::size_t>(kind)];
-}
-
 std::string shortened(std::string text) {
   constexpr std::size_t enough = 60;
   if (text.size() > enough) text = text.substr(0, enough) + "...";
@@ -199,7 +190,7 @@ class Check {
       if (const auto found = value.find(step); found != value.end())
         at(*found, further, joined(key, step), rule);
       else if (further.empty() && rule.presence == Presence::required)
-        problems_.push_back({file_, 0, 0, joined(key, step), "is missing", words_of(rule.kind)});
+        problems_.push_back({file_, 0, 0, joined(key, step), "is missing", name_of(rule.kind)});
     }
   }
 
@@ -211,8 +202,7 @@ class Check {
   void at(const Json& value, std::string_view rest, const std::string& key, const Rule& rule) {
     if (!rest.empty()) return below(value, rest, key, rule);
     if (!is_of(value, rule.kind))
-      problems_.push_back(
-          {file_, 0, 0, shortened(key), "is " + shortened(value.dump()), words_of(rule.kind)});
+      problems_.push_back({file_, 0, 0, shortened(key), "is " + shortened(value.dump()), name_of(rule.kind)});
   }
 
   std::string file_;

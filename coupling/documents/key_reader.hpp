@@ -94,6 +94,12 @@ class KeyReader {
   void assign(const Node&, const std::string& key, std::filesystem::path&, const KeySpec&);
   void assign(const Node&, const std::string& key, std::vector<double>&, const KeySpec&);
   void assign(const Node&, const std::string& key, std::vector<std::string>&, const KeySpec&);
+  template <Named E>
+  void assign(const Node& node, const std::string& key, E& target, const KeySpec& spec) {
+    std::string text;
+    assign(node, key, text, spec);
+    target = enumerator<E>(text).value_or(target);
+  }
   template <std::size_t N>
   void assign(const Node& node, const std::string& key, std::array<double, N>& target, const KeySpec& spec) {
     assign_fixed(node, key, target.data(), N, spec);

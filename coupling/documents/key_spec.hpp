@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "coupling/common/enum_names.hpp"
+
 namespace drumlin {
 
 /// What a value may be: an interval for numbers and numbers of an array, a closed list for texts.
@@ -31,6 +33,12 @@ Allowed not_empty();
 /// A text for people: one line of at most 200 characters, also an empty one.
 Allowed title_line();
 Allowed one_of(std::vector<std::string> words);
+/// The names of an enumeration.
+template <Named E>
+Allowed one_of() {
+  constexpr auto names = names_of(E{});
+  return one_of({names.begin(), names.end()});
+}
 
 enum class Need { required, defaulted, optional };
 
@@ -56,7 +64,7 @@ std::string type_name() {
     return "number";
   else if constexpr (std::is_same_v<T, std::filesystem::path>)
     return "file";
-  else if constexpr (std::is_same_v<T, std::string>)
+  else if constexpr (std::is_same_v<T, std::string> || Named<T>)
     return "text";
   else if constexpr (std::is_same_v<T, std::vector<std::string>>)
     return "array of texts";

@@ -58,6 +58,10 @@ class KeyWriter {
   static Node node_of(double d) { return {d, 0, 0}; }
   static Node node_of(const std::string& text) { return {text, 0, 0}; }
   static Node node_of(const std::filesystem::path& path) { return {path.string(), 0, 0}; }
+  template <Named E>
+  static Node node_of(const E& value) {
+    return node_of(std::string(name_of(value)));
+  }
   template <class Range>
   static Node node_of(const Range& range) {
     Node::Array entries;

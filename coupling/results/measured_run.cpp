@@ -8,6 +8,7 @@
 
 #include "coupling/common/errors.hpp"
 #include "coupling/common/files/result_folder.hpp"
+#include "coupling/common/run_status.hpp"
 #include "coupling/documents/json_document.hpp"
 #include "coupling/results/run_checks.hpp"
 
@@ -27,7 +28,7 @@ void require_folder(const fs::path& folder) {
 void check_finished(const fs::path& file, Problems& problems) {
   if (!fs::exists(file)) return;
   const Json status = read_json(file, "drumlin-run-1").value("status", Json());
-  if (status != "finished")
+  if (status != name_of(RunStatus::finished))
     problems.push_back({file.string(), 0, 0, "status",
                         "the run is unfinished (status " + plain_text(status) + ")", "\"finished\""});
 }
@@ -218,8 +219,9 @@ FlowRun read_flow_run(const fs::path& folder, FlowGeometry asked) {
   for (const char* name : {"flow.json", "profiles.csv", "flow_scene.toml"}) (void)checked_file(files, name);
   const Json flow = read_json(file, "drumlin-flow-run-2");
   Problems problems;
-  const Json geometry = flow.value("geometry", Json("drum"));
-  if (asked == FlowGeometry::drum && geometry != "drum")
+  const Json geometry = flow.value("geometry", Json(name_of(Geometry::drum)));
+  const bool is_drum = geometry == name_of(Geometry::drum);
+  if (asked == FlowGeometry::drum && !is_drum)
     problems.push_back({file.string(), 0, 0, "geometry", "is " + plain_text(geometry), "\"drum\""});
   for (const std::string& sentence : limits_missed_by(folder))
     problems.push_back({file.string(), 0, 0, "missed", sentence, "a flow that misses nothing (exit code 0)"});
@@ -227,7 +229,7 @@ FlowRun read_flow_run(const fs::path& folder, FlowGeometry asked) {
   FlowRun run{name_of_folder(folder), folder, read_profiles(profile_file), {}, {}, false};
   run.accepted = accepted_edits(files);
   run.files = std::move(files);
-  if (geometry != "drum") complete_gap_header(run.profiles.header);
+  if (!is_drum) complete_gap_header(run.profiles.header);
   run.scalars = read_scalars(file, "drumlin-flow-run-2");
   add_law_band(run.scalars, flow);
   check_frame(profile_file, run.profiles.header, RunSide::continuum, problems);

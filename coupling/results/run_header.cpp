@@ -43,17 +43,20 @@ void visit_keys(Header& header, const Visit& visit) {
   visit("kernel_width", header.kernel_width);
 }
 
-std::string text_of(RunSide side) { return name_of(side); }
+template <Named E>
+std::string text_of(E value) {
+  return name_of(value);
+}
 std::string text_of(bool value) { return value ? "true" : "false"; }
 std::string text_of(const std::string& text) { return text; }
 std::string text_of(double value) { return fmt::format("{}", value); }
 std::string text_of(std::size_t count) { return std::to_string(count); }
 
 /// Reads a value; returns what would be allowed where the text is none.
-std::string read_value(std::string_view text, std::optional<RunSide>& value) {
-  for (const RunSide side : {RunSide::particles, RunSide::continuum})
-    if (text == name_of(side)) value = side;
-  return value ? "" : "particles, continuum";
+template <Named E>
+std::string read_value(std::string_view text, std::optional<E>& value) {
+  value = enumerator<E>(text);
+  return value ? "" : fmt::format("{}", fmt::join(names_of(E{}), ", "));
 }
 std::string read_value(std::string_view text, std::optional<bool>& value) {
   if (text == "true" || text == "false") value = text == "true";
@@ -86,8 +89,6 @@ std::string read_entry(RunHeader& header, const std::string& key, std::string_vi
 }
 
 }  // namespace
-
-const char* name_of(RunSide side) { return side == RunSide::particles ? "particles" : "continuum"; }
 
 std::string key_of(HeaderNumber number) {
   std::string key;

@@ -7,19 +7,21 @@
 #include <string_view>
 #include <vector>
 
+#include "coupling/common/geometry.hpp"
+
 namespace drumlin {
 
 /// Which simulator a file comes from.
 enum class RunSide { particles, continuum };
-const char* name_of(RunSide side);
+constexpr auto names_of(RunSide) { return std::array{"particles", "continuum"}; }
 
 /// The lines "key = value" of profiles.csv and maps.h5, dimensionless (docs/conventions.md). A key that a
 /// file does not have is an empty member; NaN is a number that could not be measured.
 struct RunHeader {
   std::optional<RunSide> side;
-  std::optional<bool> reduced;          ///< a smaller drum than the one it stands for
-  std::optional<std::string> title;     ///< of the scene
-  std::optional<std::string> geometry;  ///< "drum", or a flow across a gap
+  std::optional<bool> reduced;       ///< a smaller drum than the one it stands for
+  std::optional<std::string> title;  ///< of the scene
+  std::optional<Geometry> geometry;
   std::optional<std::string> revision;  ///< of the program that wrote the file
 
   std::optional<double> theta_deg;     ///< slope of the surface: of the frame's x axis below the horizontal

@@ -18,7 +18,7 @@ struct Decay {
 DragLaw law_of(const Drag& key, const LawInput& in) {
   const double rate = key.rate_per_s * in.scales.time_s;
   return {rate, key.spin_rate_per_s ? *key.spin_rate_per_s * in.scales.time_s : rate,
-          key.grows_with == "diameter"};
+          key.grows_with == DragOver::diameter};
 }
 
 double DragLaw::share(const Bodies& bodies, std::size_t b) const {

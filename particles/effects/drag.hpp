@@ -10,6 +10,10 @@
 
 namespace drumlin::particles {
 
+/// What the force grows with from disc to disc.
+enum class DragOver { mass, diameter };
+constexpr auto names_of(DragOver) { return std::array{"mass", "diameter"}; }
+
 struct Drag {
   static constexpr const char *name = "drag", *sentence = "Force against velocity, couple against spin.";
   static constexpr const char *modest_text = "1 / s", *account = "drag";
@@ -22,7 +26,7 @@ struct Drag {
 
   double rate_per_s = 0;
   std::optional<double> spin_rate_per_s = {};
-  std::string grows_with = "mass";  ///< or "diameter"
+  DragOver grows_with = DragOver::mass;
 };
 
 template <class Visitor>
@@ -32,7 +36,7 @@ void describe(Visitor& v, Drag& d) {
   v.value("spin_rate_per_s", d.spin_rate_per_s,
           when_given("1/s", at_least(0, 1e9), "The same of its spin; without: rate_per_s."));
   v.value("grows_with", d.grows_with,
-          defaulted("", one_of({"mass", "diameter"}),
+          defaulted("", one_of<DragOver>(),
                     "The force from disc to disc: as under a plate, or as in a viscous fluid."));
 }
 

@@ -10,7 +10,6 @@
 
 #include "coupling/common/errors.hpp"
 #include "coupling/documents/csv.hpp"
-#include "coupling/documents/enum_names.hpp"
 #include "particles/import/line_reader.hpp"
 
 namespace drumlin::particles {
@@ -38,14 +37,9 @@ const std::vector<KnownColumn>& known_columns(CsvContent content) {
   return content == CsvContent::grains ? of_grains : of_contacts;
 }
 
-constexpr EnumNames<Quantity, 6> si_suffixes{{{Quantity::number, ""},
-                                              {Quantity::time, "_s"},
-                                              {Quantity::length, "_m"},
-                                              {Quantity::velocity, "_m_s"},
-                                              {Quantity::rate, "_rad_s"},
-                                              {Quantity::force, "_N_m"}}};
+constexpr std::array si_suffixes{"", "_s", "_m", "_m_s", "_rad_s", "_N_m"};  // as in Quantity
 
-std::string si_suffix(Quantity quantity) { return name_in(si_suffixes, quantity); }
+std::string si_suffix(Quantity quantity) { return si_suffixes[static_cast<std::size_t>(quantity)]; }
 
 /// One column of a file: where its numbers go.
 struct Target {

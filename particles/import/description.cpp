@@ -23,7 +23,7 @@ void check_together(const ImportDescription& description, const Document& docume
   const auto* lammps = std::get_if<LammpsSource>(&description.source);
   const auto& grains = lammps ? lammps->grains : std::get<CsvSource>(description.source).grains;
   if (grains.empty()) refuse(lammps ? "lammps.grains" : "csv.grains", "names no file", "at least one");
-  if (description.grains.may_change && description.grains.velocities != "given")
+  if (description.grains.may_change && description.grains.velocities != ImportedVelocities::given)
     refuse("grains.velocities", "is displacements of grains that come and go",
            "given, or may_change = false");
   if (const auto* csv = std::get_if<CsvSource>(&description.source); csv && !csv->heading.empty()) {

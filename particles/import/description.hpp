@@ -22,17 +22,24 @@ struct CsvSource {
   std::optional<double> interval_s;
 };
 
+enum class DumpPlane { xy, xz };
+constexpr auto names_of(DumpPlane) { return std::array{"xy", "xz"}; }
+enum class ForceOn { first, second };
+constexpr auto names_of(ForceOn) { return std::array{"first", "second"}; }
+enum class ImportedVelocities { given, displacements };
+constexpr auto names_of(ImportedVelocities) { return std::array{"given", "displacements"}; }
+
 /// Text dumps of LAMMPS and of programs that write its format.
 struct LammpsSource {
   std::vector<std::string> grains;
-  std::string plane = "xy";
+  DumpPlane plane = DumpPlane::xy;
   std::optional<double> step_s;
   std::optional<double> length_unit_m, time_unit_s, mass_unit_kg;
   std::vector<double> wall_types;
   std::vector<std::string> contacts;
   std::vector<std::string> contact_ids;
   std::vector<std::string> contact_forces;
-  std::string force_on = "first";
+  ForceOn force_on = ForceOn::first;
   std::optional<double> depth_m;
 };
 
@@ -40,7 +47,7 @@ struct ImportedGrains {
   double density_kg_m3 = 0;
   std::optional<double> mean_diameter_m;
   bool may_change = false;
-  std::string velocities = "given";
+  ImportedVelocities velocities = ImportedVelocities::given;
 };
 
 struct ImportedDrum {

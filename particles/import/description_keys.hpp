@@ -25,7 +25,7 @@ void describe(Visitor& v, CsvSource& s) {
 template <class Visitor>
 void describe(Visitor& v, LammpsSource& s) {
   v.value("grains", s.grains, required("", some_texts(), "Dumps of the style custom."));
-  v.value("plane", s.plane, defaulted("", one_of({"xy", "xz"}), "Its second axis becomes z."));
+  v.value("plane", s.plane, defaulted("", one_of<DumpPlane>(), "Its second axis becomes z."));
   v.value("step_s", s.step_s,
           when_given("s", above(0, 1e6), "One time step of the dump, where it has no ITEM: TIME."));
   v.value("length_unit_m", s.length_unit_m,
@@ -37,8 +37,7 @@ void describe(Visitor& v, LammpsSource& s) {
   v.value("contacts", s.contacts, defaulted("", anything(), "Dumps of the style local."));
   v.value("contact_ids", s.contact_ids, defaulted("", anything(), "Columns with both grains' ids."));
   v.value("contact_forces", s.contact_forces, defaulted("", anything(), "Columns of the force."));
-  v.value("force_on", s.force_on,
-          defaulted("", one_of({"first", "second"}), "Grain on which the force acts."));
+  v.value("force_on", s.force_on, defaulted("", one_of<ForceOn>(), "Grain on which the force acts."));
   v.value("depth_m", s.depth_m,
           when_given("m", above(0, 1e6),
                      "Divides forces. For one layer of spheres: two thirds of the diameter."));
@@ -51,7 +50,7 @@ void describe(Visitor& v, ImportedGrains& g) {
           when_given("m", above(0, 1e6), "d; without: the first snapshot's. Dimensionless files need it."));
   v.value("may_change", g.may_change, defaulted("", anything(), "Grains may come and go."));
   v.value("velocities", g.velocities,
-          defaulted("", one_of({"given", "displacements"}),
+          defaulted("", one_of<ImportedVelocities>(),
                     "displacements: since the snapshot before; the first one is left out."));
 }
 

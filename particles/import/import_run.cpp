@@ -197,7 +197,7 @@ ImportReport import_run(const ImportDescription& description, const fs::path& fo
   const auto leave_out = [&](const std::string& where, const std::string& why) {
     report.left_out.push_back(where + ": " + why);
   };
-  const bool moved = description.grains.velocities == "displacements";
+  const bool moved = description.grains.velocities == ImportedVelocities::displacements;
   const double turned_before =
       description.drum
           ? std::copysign(2 * std::numbers::pi * description.drum->turns_before, description.drum->speed_rpm)

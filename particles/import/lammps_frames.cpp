@@ -264,7 +264,7 @@ FrameTableSource source_of(std::shared_ptr<LammpsFrames> frames) {
 
 FrameTableSource lammps_grains(std::vector<std::filesystem::path> files, const LammpsSource& source,
                                SourceNotes& notes) {
-  const bool upright = source.plane == "xz", with_types = !source.wall_types.empty();
+  const bool upright = source.plane == DumpPlane::xz, with_types = !source.wall_types.empty();
   // The axes of the plane, the one across it, and the component of the angular velocity that turns in it.
   // With x to the right and y up it points at the onlooker and anticlockwise is positive; with z up it points
   // away.
@@ -300,7 +300,7 @@ FrameTableSource lammps_grains(std::vector<std::filesystem::path> files, const L
 FrameTableSource lammps_contacts(std::vector<std::filesystem::path> files, const LammpsSource& source,
                                  SourceNotes& notes) {
   const auto &ids = source.contact_ids, &forces = source.contact_forces;
-  const double sign = source.force_on == "first" ? 1 : -1, depth = source.depth_m.value_or(1);
+  const double sign = source.force_on == ForceOn::first ? 1 : -1, depth = source.depth_m.value_or(1);
   DumpKind kind{"ITEM: ENTRIES",
                 {},
                 {{"time", "TIMESTEP"},

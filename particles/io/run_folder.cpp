@@ -28,9 +28,8 @@ RunFolder read_run_folder(const fs::path& folder) {
     throw InputError(folder.string() + ": is an imported run, which has no scene; drumlin measure reads it");
   result.scene = read_scene(checked_file(result.files, "scene.toml"));
   result.scales = scales_of(result.scene);
-  const auto status = run.find("status");
-  if (status == run.end() || !status->is_string())
-    throw InputError((folder / "run.json").string() + ": status: missing, or no text");
+  const auto status = enumerator<RunStatus>(run.value("status", ""));
+  if (!status) throw InputError((folder / "run.json").string() + ": status: missing, or not known");
   result.status = *status;
   result.snapshots = snapshot_files(folder);
   return result;

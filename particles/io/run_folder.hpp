@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "coupling/common/files/result_folder.hpp"
+#include "coupling/common/run_status.hpp"
 #include "coupling/common/scales.hpp"
 #include "particles/bodies/snapshot.hpp"
 #include "particles/bodies/walls.hpp"
@@ -18,10 +19,10 @@ struct RunFolder {
   ResultFolder files;
   Scene scene;  ///< resolved, from scene.toml
   Scales scales;
-  std::string status;                            ///< of run.json: "finished", "running", ...
+  RunStatus status = RunStatus::running;         ///< of run.json
   std::vector<std::filesystem::path> snapshots;  ///< in order of their numbers
 
-  bool finished() const { return status == "finished"; }
+  bool finished() const { return status == RunStatus::finished; }
 };
 
 /// Throws InputError if the folder is missing, is no run or an imported one, is not as its manifest says, or

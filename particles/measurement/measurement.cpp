@@ -185,11 +185,11 @@ void add_scattered(std::size_t here, std::size_t snapshots, ScatteredGrains& sca
 
 }  // namespace
 
-std::string geometry_of_layers(double gravity_x, double gravity_z) {
+std::optional<Geometry> geometry_of_layers(double gravity_x, double gravity_z) {
   const double size = std::hypot(gravity_x, gravity_z);
-  if (size == 0) return "plane_shear";
-  if (!(gravity_x > level * size) || gravity_z > level * size) return "";
-  return gravity_z < -level * size ? "incline" : "chute";
+  if (size == 0) return Geometry::plane_shear;
+  if (!(gravity_x > level * size) || gravity_z > level * size) return std::nullopt;
+  return gravity_z < -level * size ? Geometry::incline : Geometry::chute;
 }
 
 Measurement measurement(const SnapshotSource& source, const MeasurementOptions& options,

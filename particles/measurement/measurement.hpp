@@ -55,13 +55,13 @@ struct Measurement {
   Steadiness steadiness;
 
   MeasurementFrame place;
-  double frame_angle_deg = none;  ///< of x below the horizontal
-  std::string geometry;           ///< of layers, as the continuum calls it (geometry_of_layers()); else empty
-  double axis_depth = none;       ///< height of the drum's axis above the surface
-  double surface_z = none;        ///< of z = 0, in the frame of `place`
-  double wall_z = none;           ///< of the wall below the slice, of the lowest layer without a drum
-  double layer_thickness = none;  ///< used
-  double slope_half_width = none;            ///< used
+  double frame_angle_deg = none;     ///< of x below the horizontal
+  std::optional<Geometry> geometry;  ///< of layers (geometry_of_layers())
+  double axis_depth = none;          ///< height of the drum's axis above the surface
+  double surface_z = none;           ///< of z = 0, in the frame of `place`
+  double wall_z = none;              ///< of the wall below the slice, of the lowest layer without a drum
+  double layer_thickness = none;     ///< used
+  double slope_half_width = none;    ///< used
   std::optional<ScatteredGrains> scattered;  ///< nothing when every grain is measured
   Scales scales;
 
@@ -71,10 +71,10 @@ struct Measurement {
   double last_time() const { return series.time.back(); }
 };
 
-/// The flow of a domain that is periodic in x, told by gravity alone: "plane_shear" without any, "chute"
-/// where it acts along x, "incline" where it pulls towards +x and into the layer; empty for a level bed and
+/// The flow of a domain that is periodic in x, told by gravity alone: plane_shear without any, chute
+/// where it acts along x, incline where it pulls towards +x and into the layer; nothing for a level bed and
 /// for a flow that is pulled towards -x.
-std::string geometry_of_layers(double gravity_x, double gravity_z);
+std::optional<Geometry> geometry_of_layers(double gravity_x, double gravity_z);
 
 /// Reads every snapshot twice: for the frame, then for all that is measured in it. `progress` (may be empty)
 /// is told the snapshots read so far and in all. Throws InputError when there is no snapshot or one without

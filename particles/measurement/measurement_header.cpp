@@ -11,7 +11,7 @@ RunHeader measurement_header(const Measurement& m, const MeasurementOptions& opt
   RunHeader header;
   header.side = RunSide::particles;
   header.reduced = reduced;
-  if (!m.geometry.empty()) header.geometry = m.geometry;
+  header.geometry = m.geometry;
   header.theta_deg = m.frame_angle_deg;
   header.axis_depth = m.axis_depth;
   header.wall_z = m.wall_z;

@@ -4,11 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "coupling/common/enum_names.hpp"
 #include "particles/scene/scene.hpp"
 
 namespace drumlin::particles {
 
 enum class EffectChange { none, removed, added };
+constexpr auto names_of(EffectChange) { return std::array{"none", "removed", "added"}; }
 
 struct EffectVariant {
   std::string effect;  ///< as in docs/effects.md

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "coupling/common/enum_names.hpp"
 #include "particles/effects/key_ranges.hpp"
 
 namespace drumlin::particles {
@@ -19,21 +20,25 @@ struct RectangleRegion {
   Point_mm max_mm{0, 0};
 };
 
+/// What a distribution counts.
+enum class CountedBy { number, mass };
+constexpr auto names_of(CountedBy) { return std::array{"number", "mass"}; }
+
 /// Diameters that are either the smallest or the largest.
 struct TwoSizes {
   double small_share = 0;
-  std::optional<std::string> by = {};  ///< what shares count: "number" (where absent) or "mass"
+  std::optional<CountedBy> by = {};  ///< what shares count; absent: number
 };
 /// Numbers, or mass, per diameter as D^-exponent, from the smallest to the largest.
 struct PowerLawSizes {
   double exponent = 0;
-  std::optional<std::string> by = {};
+  std::optional<CountedBy> by = {};
 };
 /// Normal in ln D, by number or by mass, cut at the smallest and the largest.
 struct LognormalSizes {
   double median_mm = 0;
   double sigma = 0;  ///< of ln D
-  std::optional<std::string> by = {};
+  std::optional<CountedBy> by = {};
 };
 /// A sieve analysis: the share of the mass that passes each opening, none the smallest diameter and all the
 /// largest. Between two openings the mass is spread evenly over ln D, the straight line of grading curves.
@@ -41,6 +46,10 @@ struct SieveSizes {
   std::vector<double> openings_mm, passing_share;
 };
 using Sizes = std::variant<TwoSizes, PowerLawSizes, LognormalSizes, SieveSizes>;
+
+/// apart: none touches another. deposited: in hollows, nearly at rest (deposited_placement.hpp).
+enum class Placement { apart, deposited };
+constexpr auto names_of(Placement) { return std::array{"apart", "deposited"}; }
 
 /// Grains made from a distribution, placed without overlap in the region, from below.
 struct GeneratedGrains {
@@ -51,9 +60,8 @@ struct GeneratedGrains {
   /// Without: uniform between the two, on a lattice of the largest. With: placed at random, the largest
   /// first.
   std::optional<Sizes> sizes = {};
-  /// "apart": none touches another. "deposited": in hollows, nearly at rest (deposited_placement.hpp).
-  std::string placement = "apart";
-  bool deposited() const { return placement == "deposited"; }
+  Placement placement = Placement::apart;
+  bool deposited() const { return placement == Placement::deposited; }
   /// Walls that may reach into the region: no grain is placed in them (obstacles.hpp).
   std::optional<std::vector<std::string>> around = {};
 };

@@ -42,7 +42,7 @@ void describe(Visitor& v, std::variant<CircleRegion, RectangleRegion>& region) {
 }
 
 inline KeySpec counted_by() {
-  return when_given("", one_of({"number", "mass"}), "What the distribution counts; without: number.");
+  return when_given("", one_of<CountedBy>(), "What the distribution counts; without: number.");
 }
 
 template <class Visitor>
@@ -90,8 +90,7 @@ void describe(Visitor& v, GeneratedGrains& g) {
   v.table("region", g.region, Need::required, "Filled from below.");
   v.optional_table("sizes", g.sizes, "Of the diameters; without: uniform.");
   v.value("placement", g.placement,
-          defaulted("", one_of({"apart", "deposited"}),
-                    "apart: no contacts. deposited: each rolls into a hollow."));
+          defaulted("", one_of<Placement>(), "apart: no contacts. deposited: each rolls into a hollow."));
   v.value("around", g.around,
           when_given("", not_empty(), "Walls that may reach into the region: grains keep clear of them."));
 }

@@ -15,7 +15,9 @@ double integral(double power, double low, double high) {
 }
 
 /// Exponent of the numbers: the mass of a disc is as D^2.
-double exponent_of(const PowerLawSizes& law) { return law.by == "mass" ? law.exponent + 2 : law.exponent; }
+double exponent_of(const PowerLawSizes& law) {
+  return law.by == CountedBy::mass ? law.exponent + 2 : law.exponent;
+}
 
 double drawn(const PowerLawSizes& law, double low, double high, RandomStream& random) {
   const double share = random.uniform(), power = 1 - exponent_of(law);
@@ -26,7 +28,7 @@ double drawn(const PowerLawSizes& law, double low, double high, RandomStream& ra
 
 /// Median of the numbers: D^-2 times a normal distribution of ln D is one that lies 2 sigma^2 lower.
 double median_of(const LognormalSizes& law) {
-  return law.by == "mass" ? law.median_mm * std::exp(-2 * law.sigma * law.sigma) : law.median_mm;
+  return law.by == CountedBy::mass ? law.median_mm * std::exp(-2 * law.sigma * law.sigma) : law.median_mm;
 }
 
 /// Share of the numbers above a bound, where ln D lies `shift` deviations higher.
@@ -47,7 +49,7 @@ double drawn_from_tail(const LognormalSizes& law, double low, double high, Rando
 
 /// Box and Muller's normal numbers, until one falls between the bounds. By mass, few of them may.
 double drawn(const LognormalSizes& law, double low, double high, RandomStream& random) {
-  if (law.by == "mass") return drawn_from_tail(law, low, high, random);
+  if (law.by == CountedBy::mass) return drawn_from_tail(law, low, high, random);
   for (;;) {
     const double radius = std::sqrt(-2 * std::log(1 - random.uniform()));
     const double normal = radius * std::cos(2 * std::numbers::pi * random.uniform());
@@ -65,7 +67,7 @@ constexpr double exponent_within = 3;
 
 std::vector<SizeClass> classes_of(const TwoSizes& law, double low, double high) {
   double small = law.small_share;
-  if (law.by == "mass") {
+  if (law.by == CountedBy::mass) {
     const double smalls = small / (low * low), larges = (1 - small) / (high * high);
     small = smalls / (smalls + larges);
   }
@@ -113,8 +115,8 @@ double mean_power(const LognormalSizes& law, double low, double high, int power)
     return std::erfc(-(std::log(bound / law.median_mm) / law.sigma - shift) / std::numbers::sqrt2) / 2;
   };
   const auto share = [&](double shift) {
-    return law.by == "mass" ? share_above(law, low, shift) - share_above(law, high, shift)
-                            : share_below(high, shift) - share_below(low, shift);
+    return law.by == CountedBy::mass ? share_above(law, low, shift) - share_above(law, high, shift)
+                                     : share_below(high, shift) - share_below(low, shift);
   };
   const double shift = power * law.sigma;
   return std::pow(median_of(law), power) * std::exp(shift * shift / 2) * share(shift) / share(0);

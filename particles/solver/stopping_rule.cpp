@@ -4,20 +4,6 @@
 
 namespace drumlin::particles {
 
-std::string to_string(Status status) {
-  switch (status) {
-    case Status::converged:
-      return "converged";
-    case Status::out_of_sweeps:
-      return "out of sweeps";
-    case Status::out_of_time:
-      return "out of time";
-    case Status::not_finite:
-      return "not finite";
-  }
-  return "unknown";
-}
-
 StoppingRule remaining(const StoppingRule& rule, const SolveReport& spent) {
   StoppingRule left = rule;
   left.max_sweeps -= spent.sweeps;

@@ -2,14 +2,16 @@
 // When a contact solver stops, and what it reports. All solvers decide by StoppingTest and nowhere else.
 #include <chrono>
 #include <limits>
-#include <string>
 
+#include "coupling/common/enum_names.hpp"
 #include "particles/contact/residual.hpp"
 
 namespace drumlin::particles {
 
 enum class Status { converged, out_of_sweeps, out_of_time, not_finite };
-std::string to_string(Status);
+constexpr auto names_of(Status) {
+  return std::array{"converged", "out of sweeps", "out of time", "not finite"};
+}
 
 /// A solver stops when all tolerances hold, or at the first limit that it meets.
 struct StoppingRule {

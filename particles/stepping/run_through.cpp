@@ -17,8 +17,8 @@ std::string missed_tolerance(const SolveReport& solve, const SolverSettings& sol
   return fmt::format(
       "contact solver {} ({}) after {} sweeps: residual {:.3g} (tolerance {:g}), penetration {:.3g} d "
       "and sinking {:.3g} d (tolerance {:g})",
-      solver.name, to_string(solve.status), solve.sweeps, residual.rms, solver.tolerance,
-      residual.penetration, residual.sinking, solver.penetration_tolerance);
+      solver.name, name_of(solve.status), solve.sweeps, residual.rms, solver.tolerance, residual.penetration,
+      residual.sinking, solver.penetration_tolerance);
 }
 
 std::string crushed(double overlap) {
@@ -35,11 +35,12 @@ bool is_converged(const StepReport& report) {
 }
 
 std::optional<StepFault> fault_of(const StepReport& report, const SolverSettings& solver) {
-  if (report.lost) return StepFault{"grain lost", described(*report.lost)};
+  if (report.lost) return StepFault{RunStatus::grain_lost, described(*report.lost)};
   const bool fatal = solver.stop_when_unconverged || report.solve.status == Status::not_finite;
   if (!is_converged(report) && fatal)
-    return StepFault{"not converged", missed_tolerance(report.solve, solver)};
-  if (report.overlap.mean > crushing_overlap) return StepFault{"crushed", crushed(report.overlap.mean)};
+    return StepFault{RunStatus::not_converged, missed_tolerance(report.solve, solver)};
+  if (report.overlap.mean > crushing_overlap)
+    return StepFault{RunStatus::crushed, crushed(report.overlap.mean)};
   return std::nullopt;
 }
 

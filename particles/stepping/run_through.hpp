@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "coupling/common/run_status.hpp"
 #include "particles/stepping/simulation.hpp"
 
 namespace drumlin::particles {
@@ -16,7 +17,7 @@ inline constexpr double crushing_overlap = 0.2;
 
 /// Why the state after a step must not be built upon.
 struct StepFault {
-  std::string kind;  ///< "grain lost", "not converged", "crushed"
+  RunStatus status;  ///< of a run that ends with it
   std::string why;   ///< a sentence with the numbers
 };
 /// The first fault of a step; none of one that may be built upon, as the scene's solver settings say.

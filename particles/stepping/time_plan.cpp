@@ -5,20 +5,6 @@
 
 namespace drumlin::particles {
 
-std::string to_string(EndedBy by) {
-  switch (by) {
-    case EndedBy::its_time:
-      return "its time";
-    case EndedBy::rest:
-      return "at rest";
-    case EndedBy::wall:
-      return "wall moved";
-    case EndedBy::outlet:
-      return "grains out";
-  }
-  return "its time";
-}
-
 TimePlan time_plan(const Scene& scene, const Scales& scales, std::span<const StageEnd> ends) {
   TimePlan plan;
   for (std::size_t k = 0; k < scene.stages.size(); ++k) {

@@ -12,7 +12,7 @@ namespace drumlin::particles {
 
 /// What ended a stage.
 enum class EndedBy : std::int32_t { its_time, rest, wall, outlet };
-std::string to_string(EndedBy);
+constexpr auto names_of(EndedBy) { return std::array{"its time", "at rest", "wall moved", "grains out"}; }
 
 /// A stage that is over.
 struct StageEnd {

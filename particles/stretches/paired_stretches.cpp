@@ -113,13 +113,13 @@ StretchChange change_between(const std::array<double, stretch_blocks>& before,
   std::array<double, stretch_blocks> difference, without;
   for (std::size_t b = 0; b < stretch_blocks; ++b) difference[b] = after[b] - before[b];
   StretchChange change;
-  change.value = mean_of(difference);
+  change.change = mean_of(difference);
   constexpr double blocks = stretch_blocks;
   for (std::size_t b = 0; b < stretch_blocks; ++b)
-    without[b] = (blocks * change.value - difference[b]) / (blocks - 1);
+    without[b] = (blocks * change.change - difference[b]) / (blocks - 1);
   change.ci99 = statistics::student_quantile_99(static_cast<int>(stretch_blocks / 2) - 1) *
                 std::sqrt(statistics::jackknife_variance(without));
-  change.error_at_most = factor * (std::abs(change.value) + change.ci99);
+  change.error_at_most = factor * (std::abs(change.change) + change.ci99);
   return change;
 }
 

@@ -32,8 +32,8 @@ struct StretchMeans {
 /// A difference between two stretches from one state, block by block, with its 99 % half width (Student's t
 /// with the correlation of neighbours, as all intervals over time).
 struct StretchChange {
-  double value = 0, ci99 = 0;
-  /// Largest error of the run that agrees with it: (|value| + ci99) times what the order of the setting asks
+  double change = 0, ci99 = 0;
+  /// Largest error of the run that agrees with it: (|change| + ci99) times what the order of the setting asks
   /// for.
   double error_at_most = 0;
 };

@@ -120,7 +120,7 @@ TEST(LawScore, SaysHowFarAHeldOutRunLies) {
   points.push_back({0.5, 0.4, 0, 0.005});
   const LawScore score = score_of("other", points, law);
   EXPECT_NEAR(score.bias, 0.05, 1e-3);
-  EXPECT_EQ(score.outside, 1u);
+  EXPECT_EQ(score.outside_range, 1u);
   EXPECT_EQ(score.inside_prediction, 0);
 }
 

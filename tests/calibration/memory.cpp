@@ -120,7 +120,7 @@ TEST(MemoryCalibration, FindsTheLawOfNoisyMapsAndSaysWhatItCannotTell) {
   EXPECT_LE(found.law.m, 1);
   for (const MemoryScore& score : found.scores) {
     EXPECT_GT(score.bed.paths, 50U);
-    EXPECT_LT(score.bed.axes_deg, score.bed.coaxial_axes_deg / 2);
+    EXPECT_LT(score.bed.axes_deg, score.bed.axes_deg_without_memory / 2);
   }
   EXPECT_EQ(found.arcs.size(), 3U);
   EXPECT_FALSE(found.untold.empty());

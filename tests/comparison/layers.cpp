@@ -73,7 +73,7 @@ TEST(LayerComparison, ATenthMoreSpeedIsAnErrorOfATenth) {
 
 TEST(LayerComparison, AnotherGeometryIsRefusedWithBothNames) {
   ProfileSet slope = sheared_continuum();
-  slope.header.geometry = "incline";
+  slope.header.geometry = Geometry::incline;
   const std::string said = message_of<InputError>(
       [&] { compare_layers(shear_side(sheared_packing()), shear_side(slope), Registration::axis); });
   expect_has(said, "plane_shear in the first side, incline in the second");

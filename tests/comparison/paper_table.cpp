@@ -9,7 +9,6 @@ namespace drumlin::paper_table_test {
 using namespace coupling;
 namespace {
 
-using Outcome = Target::Outcome;
 const std::filesystem::path paper = drumlin::test::data_folder() / "paper";
 
 const PaperRow& row(const std::vector<PaperRow>& rows, const std::string& name) {

@@ -13,8 +13,6 @@ using namespace coupling;
 namespace {
 
 using namespace testing;
-using Outcome = Target::Outcome;
-
 const Target& target(const Comparison& comparison, const std::string& quantity, const std::string& zone) {
   for (const auto& candidate : comparison.targets)
     if (candidate.quantity == quantity && candidate.zone == zone) return candidate;
@@ -79,13 +77,13 @@ TEST(Comparison, ALimitNarrowerThanTheParticlesIntervalIsJudgedByTheNoiseFloor) 
   };
   const Target within = judged(0.04, 0.03), beyond = judged(0.04, -0.05), known = judged(0.009, 0.03);
   EXPECT_EQ(within.outcome, Outcome::met);
-  EXPECT_EQ(within.judged_by, Target::JudgedBy::noise_floor);
+  EXPECT_EQ(within.judged_by, JudgedBy::noise_floor);
   EXPECT_NEAR(within.noise_floor, 0.04, 1e-12);
   EXPECT_EQ(within.limit, 0.01);
   EXPECT_EQ(beyond.outcome, Outcome::missed);
-  EXPECT_EQ(beyond.judged_by, Target::JudgedBy::noise_floor);
+  EXPECT_EQ(beyond.judged_by, JudgedBy::noise_floor);
   EXPECT_EQ(known.outcome, Outcome::missed);
-  EXPECT_EQ(known.judged_by, Target::JudgedBy::limit);
+  EXPECT_EQ(known.judged_by, JudgedBy::limit);
   // Another run that lies farther off widens the floor, one that lies nearer does not narrow it.
   std::vector<Target> targets{beyond}, other{beyond};
   other[0].value = 0.02;
@@ -105,7 +103,7 @@ TEST(Comparison, FieldsOfNoisyParticlesAreJudgedByTheirNoiseFloor) {
   for (double& value : column_of(continuum.profiles, "sigma_zz").value) value *= 1.08;
   const Target found = target(compare(particles, continuum), "sigma_zz", "all");
   EXPECT_EQ(found.outcome, Outcome::met);
-  EXPECT_EQ(found.judged_by, Target::JudgedBy::noise_floor);
+  EXPECT_EQ(found.judged_by, JudgedBy::noise_floor);
   EXPECT_NEAR(found.noise_floor, 0.12, 1e-12);
   for (double& value : column_of(continuum.profiles, "sigma_zz").value) value *= 1.13 / 1.08;
   EXPECT_EQ(target(compare(particles, continuum), "sigma_zz", "all").outcome, Outcome::missed);

@@ -37,8 +37,8 @@ TEST(PairedStretches, FreeFallChangesBySamplingAloneAndByNoSolver) {
   ASSERT_NE(energy, nullptr);
   // v = t is exact; the mean of (v_k^2 + v_(k+1)^2)/2 from t = 1 to 3 is 13/3 + h^2/6.
   EXPECT_NEAR(energy->value, mass / 2 * (13.0 / 3 + h * h / 6), 1e-9);
-  EXPECT_NEAR(energy->step.value, -mass / 2 * h * h / 8, 1e-9);
-  EXPECT_NEAR(energy->solver.value, 0, 1e-12);
+  EXPECT_NEAR(energy->step.change, -mass / 2 * h * h / 8, 1e-9);
+  EXPECT_NEAR(energy->solver.change, 0, 1e-12);
   EXPECT_EQ(found(result, "contact_force"), nullptr);  // nothing touches
   EXPECT_EQ(result.missed, 0);
   const StretchComparison* displacement = found(result, "displacement");
@@ -81,7 +81,7 @@ TEST(PairedStretches, AChangeBoundsTheErrorByTheOrderOfItsSetting) {
     after[b] = before[b] + 0.25;
   }
   const StretchChange change = change_between(before, after, error_over_step_change);
-  EXPECT_NEAR(change.value, 0.25, 1e-15);
+  EXPECT_NEAR(change.change, 0.25, 1e-15);
   EXPECT_NEAR(change.ci99, 0, 1e-12);  // the same in every block
   EXPECT_NEAR(change.error_at_most, 0.5, 1e-12);
 }

@@ -9,7 +9,7 @@ using namespace test;
 namespace {
 
 /// Rates in the units of the simulation.
-Drag drag(double rate, std::optional<double> spin_rate = {}, const std::string& grows_with = "mass") {
+Drag drag(double rate, std::optional<double> spin_rate = {}, DragOver grows_with = DragOver::mass) {
   if (spin_rate) spin_rate = *spin_rate / time_s;
   return {rate / time_s, spin_rate, grows_with};
 }
@@ -66,7 +66,7 @@ TEST(Drag, OfAFluidSlowsSmallDiscsFaster) {
   Scene scene = scene_of({{0, 0, 0.5, 1, 0, 2}, {0, 5, 1.5, 1, 0, 2}});
   scene.effects.friction = Friction{0.3, 0.3};
   scene.effects.spin = Spin{};
-  scene.effects.drag = drag(0.6, 0.9, "diameter");
+  scene.effects.drag = drag(0.6, 0.9, DragOver::diameter);
   add_stage(scene, 1, 0.1);
   const Bodies end = bodies_at_end(scene);
   EXPECT_NEAR(end.v_x[0], std::exp(-0.6 / 0.5), 1e-13);

@@ -58,20 +58,21 @@ TEST(Sizes, OfASieveAnalysisPassAsMuchMassAsItSays) {
 TEST(Sizes, ByMassAreThoseByNumberTimesTheSquare) {
   // Of 1 and 3 mm nine small ones weigh as much as a large one.
   RandomStream random(7, "sizes");
-  const auto two = diameters_mm({1000, 1, 3, RectangleRegion{}, TwoSizes{0.5, "mass"}}, random);
+  const auto two = diameters_mm({1000, 1, 3, RectangleRegion{}, TwoSizes{0.5, CountedBy::mass}}, random);
   EXPECT_EQ(std::count(two.begin(), two.end(), 1.0), 900);
   EXPECT_NEAR(mass_below(two, 2), 0.5, 1e-12);
-  EXPECT_EQ(diameters_of(PowerLawSizes{1, "mass"}, 1000), diameters_of(PowerLawSizes{3}, 1000));
-  EXPECT_EQ(diameters_of(TwoSizes{0.9}, 1000), diameters_of(TwoSizes{0.9, "number"}, 1000));
+  EXPECT_EQ(diameters_of(PowerLawSizes{1, CountedBy::mass}, 1000), diameters_of(PowerLawSizes{3}, 1000));
+  EXPECT_EQ(diameters_of(TwoSizes{0.9}, 1000), diameters_of(TwoSizes{0.9, CountedBy::number}, 1000));
   // Half of the mass below the median: a bit less than half of what is left between 1 and 50 mm.
-  EXPECT_NEAR(mass_below(diameters_of(LognormalSizes{7, 0.4, "mass"}, 100000), 7), 0.5, 0.01);
+  EXPECT_NEAR(mass_below(diameters_of(LognormalSizes{7, 0.4, CountedBy::mass}, 100000), 7), 0.5, 0.01);
 }
 
 TEST(Sizes, DrawnDiametersHaveTheMeansOfTheirDistribution) {
   for (const Sizes& sizes :
        {Sizes{TwoSizes{0.8}}, Sizes{PowerLawSizes{2.5}}, Sizes{PowerLawSizes{1}}, Sizes{PowerLawSizes{0}},
-        Sizes{LognormalSizes{5, 0.7}}, Sizes{TwoSizes{0.3, "mass"}}, Sizes{PowerLawSizes{0.5, "mass"}},
-        Sizes{LognormalSizes{5, 0.7, "mass"}}, Sizes{LognormalSizes{5, 3, "mass"}}, Sizes{sieves}}) {
+        Sizes{LognormalSizes{5, 0.7}}, Sizes{TwoSizes{0.3, CountedBy::mass}},
+        Sizes{PowerLawSizes{0.5, CountedBy::mass}}, Sizes{LognormalSizes{5, 0.7, CountedBy::mass}},
+        Sizes{LognormalSizes{5, 3, CountedBy::mass}}, Sizes{sieves}}) {
     const GeneratedGrains grains = one_to_fifty(1, sizes);
     RandomStream random(7, "sizes");
     const int draws = 100000;

@@ -14,7 +14,7 @@ using namespace test;
 namespace {
 
 /// Ten steps.
-Scene box(const std::string& placement) {
+Scene box(Placement placement) {
   GeneratedGrains grains{2000, 3.0, 3.6, RectangleRegion{{0, 0}, {100, 400}}};
   grains.placement = placement;
   Scene scene = open_box(grains, 100, 400);
@@ -23,7 +23,7 @@ Scene box(const std::string& placement) {
 }
 
 TEST(StandingStart, TheFloorCarriesTheWeight) {
-  const Scene scene = box("deposited");
+  const Scene scene = box(Placement::deposited);
   const Simulation simulation(scene);
   const Bodies& bodies = simulation.state().bodies;
   const ContactMemory& memory = simulation.state().memory;
@@ -52,12 +52,12 @@ TEST(StandingStart, SavesSweepsOfTheFirstSteps) {
     while (!simulation.finished()) sum += simulation.step().solve.sweeps;
     return sum;
   };
-  const Scene scene = box("deposited");
+  const Scene scene = box(Placement::deposited);
   EXPECT_LT(2 * sweeps(scene, false), sweeps(scene, true));
 }
 
 TEST(StandingStart, IsThatOfDepositedGrainsAlone) {
-  EXPECT_TRUE(Simulation(box("apart")).state().memory.i.empty());
+  EXPECT_TRUE(Simulation(box(Placement::apart)).state().memory.i.empty());
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ TEST(JsonFile, ValuesOfAnotherTypeAreRefusedWithFileKeyAndWhatIsAllowed) {
   expect("drumlin-flow-run-2", R"("settings": {"scales": {"time_s": "1"}})",
          "settings.scales.time_s: is \"1\"");
   expect("drumlin-cost-1", R"("points": {"a": 1})", "points: is {\"a\":1} (allowed: an array)");
-  expect("drumlin-comparison-study-1", R"("title": 3)", "speeds: is missing (allowed: an array)");
+  expect("drumlin-plots-1", R"("title": 3)", "figures: is missing (allowed: a table)");
   // All of them at once.
   const std::string both = refused("drumlin-run-1", R"("steps": "3", "grains": true)");
   expect_has(both, "steps:");

@@ -19,8 +19,6 @@ namespace {
 using drumlin::testing::message_of;
 using drumlin::testing::TemporaryFolder;
 using Json = nlohmann::ordered_json;
-using Outcome = Target::Outcome;
-
 Comparison small_comparison() {
   Comparison comparison;
   FieldErrors errors;

@@ -6,9 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "coupling/common/enum_names.hpp"
+
 namespace drumlin {
 
 enum class Relation { equals, at_most, at_least };
+constexpr auto names_of(Relation) { return std::array{"equals", "at_most", "at_least"}; }
 
 /// One number that a case demands. Dimensionless (d, sqrt(d/g), rho0 g d) unless `what` says otherwise.
 struct HardCheck {

@@ -117,12 +117,12 @@ TEST(Layers, SceneWithoutSpinHasNoColumnOfIt) {
 }
 
 TEST(Layers, GravityTellsWhichContinuumTheyHave) {
-  EXPECT_EQ(geometry_of_layers(0, 0), "plane_shear");
-  EXPECT_EQ(geometry_of_layers(std::sin(0.3), -std::cos(0.3)), "incline");
-  EXPECT_EQ(geometry_of_layers(1, 0), "chute");
-  EXPECT_EQ(geometry_of_layers(1, -1e-16), "chute");
-  EXPECT_EQ(geometry_of_layers(1e-16, -1), "");  // a level bed
-  EXPECT_EQ(geometry_of_layers(-0.3, -1), "");   // down towards -x
+  EXPECT_EQ(geometry_of_layers(0, 0), Geometry::plane_shear);
+  EXPECT_EQ(geometry_of_layers(std::sin(0.3), -std::cos(0.3)), Geometry::incline);
+  EXPECT_EQ(geometry_of_layers(1, 0), Geometry::chute);
+  EXPECT_EQ(geometry_of_layers(1, -1e-16), Geometry::chute);
+  EXPECT_EQ(geometry_of_layers(1e-16, -1), std::nullopt);  // a level bed
+  EXPECT_EQ(geometry_of_layers(-0.3, -1), std::nullopt);   // down towards -x
 }
 
 TEST(Layers, GrainsOfSeveralDensitiesCountByTheirMasses) {

@@ -90,7 +90,7 @@ TEST(WorkMemory, AStepTakesSoMuchPerContact) {
   Scene scene;
   scene.grains.density_kg_m3 = 2700;
   GeneratedGrains made{grains, 3, 3.6, CircleRegion{{0, 0}, 146}};
-  made.placement = "deposited";
+  made.placement = Placement::deposited;
   scene.grains.source = made;
   scene.walls = {{"drum", ContainerShape{{0, 0}, 146}}};
   scene.effects = {Gravity{}, Friction{0.4, 0.95}, Restitution{0.46, 0.46}, Spin{}};

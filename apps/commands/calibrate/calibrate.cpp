@@ -62,10 +62,10 @@ std::string posedness_text(const coupling::Calibration& calibration) {
 std::string score_text(const char* what, const std::vector<coupling::LawScore>& scores) {
   std::string text;
   for (const coupling::LawScore& score : scores)
-    text +=
-        fmt::format("  {} {}: rms {:.4f}, mean {:+.4f}, {:.0f} % of {} points inside the 99 % interval{}\n",
-                    what, score.run, score.rms, score.bias, 100 * score.inside_prediction, score.points,
-                    score.outside == 0 ? "" : fmt::format(", {} beyond the range of I", score.outside));
+    text += fmt::format(
+        "  {} {}: rms {:.4f}, mean {:+.4f}, {:.0f} % of {} points inside the 99 % interval{}\n", what,
+        score.run, score.rms, score.bias, 100 * score.inside_prediction, score.points,
+        score.outside_range == 0 ? "" : fmt::format(", {} beyond the range of I", score.outside_range));
   return text;
 }
 
@@ -100,8 +100,8 @@ std::string memory_scores_text(const char* what, const std::vector<coupling::Mem
     text += fmt::format(
         "  {} {}: axes {:.1f} deg off in the bed, {:.1f} in the flow (without memory {:.1f}, {:.1f}); s/p "
         "{:.4f}, {:.4f}\n",
-        what, score.run, score.bed.axes_deg, score.flow.axes_deg, score.bed.coaxial_axes_deg,
-        score.flow.coaxial_axes_deg, score.bed.rms, score.flow.rms);
+        what, score.run, score.bed.axes_deg, score.flow.axes_deg, score.bed.axes_deg_without_memory,
+        score.flow.axes_deg_without_memory, score.bed.rms, score.flow.rms);
   return text;
 }
 

@@ -3,52 +3,43 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/commands/calibrate/law_json.hpp"
 #include "apps/commands/calibrate/memory_json.hpp"
 #include "apps/commands/calibrate/nonlocal_json.hpp"
 #include "apps/json/json_file.hpp"
 #include "coupling/statistics/straight_line.hpp"
+
+namespace drumlin {
+inline void to_json(nlohmann::ordered_json& json, const InertialRange& range) {
+  json = {range.from, range.to};
+}
+}  // namespace drumlin
+
+namespace drumlin::coupling {
+DRUMLIN_DESCRIBED(LawScore, run, points, outside_range, rms, bias, inside_prediction, largest, largest_at_I)
+DRUMLIN_DESCRIBED(OneLaw, holds, rms_common, rms_own, largest_ratio, difference, at_I, speed)
+DRUMLIN_DESCRIBED(SampledAngle, I, degrees)
+}  // namespace drumlin::coupling
 
 namespace drumlin::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json numbers(const std::vector<double>& values) { return Json(values); }
-
-// The law and its 99 % band over its range.
-Json curve_of(const coupling::CalibratedLaw& law) {
-  const coupling::SampledLaw at = coupling::sampled(law);
-  return {{"I", numbers(at.I)},
-          {"value", numbers(at.value)},
-          {"low", numbers(at.low)},
-          {"high", numbers(at.high)}};
-}
-
 Json form_json(const coupling::CalibratedLaw& law, bool chosen) {
   Json form{{"form", name_of(law.form.kind)},
             {"chosen", chosen},
-            {"coefficients", numbers(law.fit.law)},
+            {"coefficients", law.fit.law},
             {"rms_misfit", law.fit.rms_misfit},
             {"intrinsic_scatter", law.fit.intrinsic_scatter},
             {"outlier_share", law.fit.outlier_share},
             {"points", law.fit.points}};
   if (!law.form.knots.empty()) {
-    form["knots"] = numbers(law.form.knots);
+    form["knots"] = law.form.knots;
     form["intervals_held_well_posed"] = coupling::held_intervals(law.form, law.fit.law);
   }
-  form["curve"] = curve_of(law);
+  form["curve"] = coupling::sampled(law);
   return form;
-}
-
-Json score_json(const coupling::LawScore& score) {
-  return {{"run", score.run},
-          {"points", score.points},
-          {"outside_range", score.outside},
-          {"rms", score.rms},
-          {"bias", score.bias},
-          {"inside_prediction", score.inside_prediction},
-          {"largest", score.largest},
-          {"largest_at_I", score.largest_at_I}};
 }
 
 Json points_json(const coupling::RunEvidence& run, const coupling::Calibration& calibration) {
@@ -60,12 +51,13 @@ Json points_json(const coupling::RunEvidence& run, const coupling::Calibration& 
     mu_error.push_back(point.mu_error);
     law.push_back(curve.at(point.I).value);
   }
-  Json json{{"run", run.name},   {"rotation_rpm", run.rotation_rpm}, {"I", numbers(I)},
-            {"mu", numbers(mu)}, {"mu_error", numbers(mu_error)},    {"law", numbers(law)}};
+  Json json{
+      {"run", run.name}, {"rotation_rpm", run.rotation_rpm}, {"I", I}, {"mu", mu}, {"mu_error", mu_error},
+      {"law", law}};
   if (calibration.options.source == coupling::EvidenceSource::profiles || !calibration.turn) return json;
   for (const coupling::LawBlock& point : run.blocks)
     angle.push_back(coupling::turn_angle_deg(point.turn, point.friction.mu));
-  json["axis_angle_deg"] = numbers(angle);
+  json["axis_angle_deg"] = angle;
   return json;
 }
 
@@ -74,19 +66,8 @@ Json turn_json(const coupling::Calibration& calibration) {
   Json json = form_json(*calibration.turn, calibration.options.k);
   json["of"] = maps ? "stress across the strain rate over the pressure" : "k";
   if (!maps) return json;
-  const coupling::SampledAngle angle = coupling::sampled_axis_angle(calibration);
-  json["axis_angle"] = {{"I", numbers(angle.I)}, {"degrees", numbers(angle.degrees)}};
+  json["axis_angle"] = coupling::sampled_axis_angle(calibration);
   return json;
-}
-
-Json one_law_json(const coupling::OneLaw& one) {
-  return {{"holds", one.holds},
-          {"rms_common", one.rms_common},
-          {"rms_own", one.rms_own},
-          {"largest_ratio", one.largest_ratio},
-          {"difference", one.difference},
-          {"at_I", one.at_I},
-          {"speed", one.speed}};
 }
 
 /// nu over I of runs in layers, a point each; null without two of them.
@@ -99,10 +80,7 @@ Json volume_fractions(const std::vector<coupling::RunEvidence>& runs) {
     for (const coupling::FrictionPoint& point : run.layers) sum += point.I;
     I.push_back(sum / static_cast<double>(run.layers.size()));
     nu.push_back(run.nu.value);
-    points.push_back({{"run", run.name},
-                      {"I", I.back()},
-                      {"nu", nu.back()},
-                      {"ci99", run.nu.ci99 ? Json(*run.nu.ci99) : Json()}});
+    points.push_back({{"run", run.name}, {"I", I.back()}, {"nu", nu.back()}, {"ci99", run.nu.ci99}});
   }
   const auto line = I.size() < 2 ? std::nullopt : statistics::fit_line(I, nu);
   if (!line) return nullptr;
@@ -129,22 +107,17 @@ Json calibration_json(const coupling::Calibration& calibration, const std::vecto
   const coupling::CalibratedLaw& law = calibration.law();
   Json json{{"format", "drumlin-calibration-1"},
             {"reduced", calibration.rheology.reduced},
-            {"source", calibration.options.source == coupling::EvidenceSource::maps ? "maps" : "profiles"},
+            {"source", name_of(calibration.options.source)},
             {"range_of_validity", {law.I_min, law.I_max}},
-            {"well_posed", calibration.ill_posed.empty()}};
-  json["ill_posed_I"] = Json::array();
-  for (const InertialRange& range : calibration.ill_posed)
-    json["ill_posed_I"].push_back({range.from, range.to});
+            {"well_posed", calibration.ill_posed.empty()},
+            {"ill_posed_I", calibration.ill_posed}};
   json["forms"] = Json::array();
   for (std::size_t f = 0; f < calibration.forms.size(); ++f)
     json["forms"].push_back(form_json(calibration.forms[f], f == calibration.chosen));
   json["turn"] = calibration.turn ? turn_json(calibration) : Json();
-  json["runs"] = Json::array();
-  for (const coupling::LawScore& score : calibration.scores) json["runs"].push_back(score_json(score));
-  json["held_out"] = Json::array();
-  for (const coupling::LawScore& score : calibration.predictions)
-    json["held_out"].push_back(score_json(score));
-  json["one_law"] = calibration.one_law ? one_law_json(*calibration.one_law) : Json();
+  json["runs"] = calibration.scores;
+  json["held_out"] = calibration.predictions;
+  json["one_law"] = calibration.one_law;
   if (calibration.memory) json["memory"] = memory_json(*calibration.memory, calibration.runs);
   if (calibration.nonlocal) json["nonlocal"] = nonlocal_json(*calibration.nonlocal);
   if (const Json fractions = volume_fractions(calibration.runs); !fractions.is_null())

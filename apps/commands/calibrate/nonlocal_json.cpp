@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
-#include "coupling/documents/json_numbers.hpp"
+#include "apps/json/described.hpp"
 
 namespace drumlin::apps {
 
@@ -13,26 +11,25 @@ using Json = nlohmann::ordered_json;
 Json nonlocal_json(const coupling::NonlocalFit& found) {
   Json json{{"amplitude", found.law.amplitude},
             {"mu_s", found.law.mu_s},
-            {"amplitude_ci99", number_or_null(found.law.amplitude_ci99)},
-            {"mu_s_ci99", number_or_null(found.law.mu_s_ci99)},
+            {"amplitude_ci99", found.law.amplitude_ci99},
+            {"mu_s_ci99", found.law.mu_s_ci99},
             {"points", found.points},
-            {"rms", number_or_null(found.rms)},
-            {"rms_bed", number_or_null(found.rms_bed)},
-            {"rms_local", number_or_null(found.local_rms)},
-            {"rms_local_bed", number_or_null(found.local_rms_bed)},
-            {"correlation_bed", number_or_null(found.correlation_bed)},
+            {"rms", found.rms},
+            {"rms_bed", found.rms_bed},
+            {"rms_local", found.local_rms},
+            {"rms_local_bed", found.local_rms_bed},
+            {"correlation_bed", found.correlation_bed},
             {"given_mu_s", Json::array()},
             {"lengths", Json::array()},
             {"untold", found.untold}};
   for (const auto& [rms, law] : found.given)
-    json["given_mu_s"].push_back(
-        {{"mu_s", law.mu_s}, {"amplitude", law.amplitude}, {"rms_bed", number_or_null(rms)}});
+    json["given_mu_s"].push_back({{"mu_s", law.mu_s}, {"amplitude", law.amplitude}, {"rms_bed", rms}});
   for (const coupling::LengthOverFriction& length : found.lengths)
     json["lengths"].push_back({{"mu", {length.mu_from, length.mu_to}},
                                {"points", length.points},
                                {"I", length.I},
                                {"curvature", length.curvature},
-                               {"xi", number_or_null(length.xi())}});
+                               {"xi", length.xi()}});
   return json;
 }
 

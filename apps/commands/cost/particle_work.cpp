@@ -1,15 +1,13 @@
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "apps/commands/cost/cost.hpp"
 #include "apps/commands/run_files.hpp"
+#include "apps/json/described.hpp"
 #include "apps/output/output_folder.hpp"
 #include "apps/process/interruption.hpp"
 #include "apps/process/progress.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/files/text_file.hpp"
-#include "coupling/documents/json_numbers.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/run_folder.hpp"
 #include "particles/measurement/motion_difference.hpp"
@@ -17,6 +15,11 @@
 #include "particles/scene/scene_file.hpp"
 #include "particles/solver/solver_names.hpp"
 #include "particles/stretches/effect_price.hpp"
+
+namespace drumlin::particles {
+DRUMLIN_DESCRIBED(Mark, cpu_seconds, steps, sweeps, contact_sweeps, missed, overlap_d)
+DRUMLIN_DESCRIBED(MotionDifference, field, displacement, velocity, energy)
+}  // namespace drumlin::particles
 
 namespace drumlin::apps {
 namespace {
@@ -28,7 +31,7 @@ particles::SweepStart end_of_run(const fs::path& folder, const particles::Scene&
   const particles::RunFolder run = particles::read_run_folder(folder);
   if (!run.finished())
     throw InputError(fmt::format("{}: the run is unfinished (status {}); finish it with drumlin run --resume",
-                                 folder.string(), run.status));
+                                 folder.string(), name_of(run.status)));
   if (particles::scene_text(particles::physics_of(run.scene)) !=
       particles::scene_text(particles::physics_of(scene)))
     throw InputError(folder.string() +
@@ -78,9 +81,8 @@ ParticleWork::ParticleWork(const CostOptions& options)
 Json ParticleWork::facts() const {
   Json variants = Json::array();
   for (const particles::EffectVariant& one : variants_) {
-    static const char* const words[] = {"none", "removed", "added"};
     variants.push_back({{"effect", one.effect},
-                        {"change", words[static_cast<int>(one.change)]},
+                        {"change", name_of(one.change)},
                         {"with_it", one.with_it},
                         {"refused", one.refused}});
   }
@@ -120,12 +122,7 @@ Json ParticleWork::stretch(const Json& wish) const {
   Json list = Json::array();
   for (std::size_t m = 0; m < marks.size(); ++m) {
     const particles::Mark& mark = marks[m];
-    list.push_back({{"cpu_seconds", mark.cpu_seconds},
-                    {"steps", mark.steps},
-                    {"sweeps", mark.sweeps},
-                    {"contact_sweeps", mark.contact_sweeps},
-                    {"missed", mark.missed},
-                    {"overlap_d", mark.overlap_d}});
+    list.push_back(mark);
     if (wish.contains("keep")) {
       particles::SimulationState state = start_.state;
       state.bodies = mark.bodies;
@@ -134,11 +131,7 @@ Json ParticleWork::stretch(const Json& wish) const {
     }
     for (const std::string prefix : wish.at("against")) {
       const particles::Bodies there = particles::read_checkpoint(file_at_mark(prefix, m)).state.bodies;
-      const auto apart = particles::motion_difference(start_.state.bodies, there, mark.bodies);
-      list.back()["against"].push_back({{"field", apart.field},
-                                        {"displacement", apart.displacement},
-                                        {"velocity", apart.velocity},
-                                        {"energy", apart.energy}});
+      list.back()["against"].push_back(particles::motion_difference(start_.state.bodies, there, mark.bodies));
     }
   }
   if (wish.contains("keep")) return {{"marks", list}};
@@ -175,7 +168,7 @@ Json ParticleWork::price(const Json& wish) const {
           {"missed_share", p.missed},
           {"kinetic_energy_J_kg", p.kinetic_energy_J_kg},
           {"center_of_mass_mm", {p.center_x_mm, p.center_z_mm}},
-          {"slope_deg", number_or_null(p.slope_deg)},
+          {"slope_deg", p.slope_deg},
           {"overlap_d", p.overlap_d}};
 }
 

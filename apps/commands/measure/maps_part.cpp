@@ -8,13 +8,20 @@
 #include <optional>
 #include <utility>
 
+#include "apps/json/described.hpp"
 #include "apps/json/json_file.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/common/files/scratch_file.hpp"
-#include "coupling/documents/json_numbers.hpp"
 #include "coupling/hdf5/field_map_file.hpp"
 #include "particles/measurement/maps/field_values.hpp"
 #include "particles/measurement/maps/map_measurement.hpp"
+
+namespace drumlin::particles {
+DRUMLIN_DESCRIBED(BalanceResidual, nodes, rms_x, rms_z, mean_x, mean_z, noise_x, noise_z, rms_x_blocks,
+                  rms_z_blocks, rms_x_without_kinetic, rms_z_without_kinetic, rms_inertia)
+DRUMLIN_DESCRIBED(MomentumBalance, bulk, flowing, slow)
+DRUMLIN_DESCRIBED(LogLine, a, b, rms, nodes)
+}  // namespace drumlin::particles
 
 namespace drumlin::apps {
 namespace {
@@ -27,38 +34,16 @@ struct Maps {
   particles::MeasuredMaps measured;
 };
 
-Json number(double value) { return number_or_null(value); }
-
-Json content_of(const particles::BalanceResidual& r) {
-  return {{"nodes", r.nodes},
-          {"rms_x", number(r.rms_x)},
-          {"rms_z", number(r.rms_z)},
-          {"mean_x", number(r.mean_x)},
-          {"mean_z", number(r.mean_z)},
-          {"noise_x", number(r.noise_x)},
-          {"noise_z", number(r.noise_z)},
-          {"rms_x_blocks", number(r.rms_x_blocks)},
-          {"rms_z_blocks", number(r.rms_z_blocks)},
-          {"rms_x_without_kinetic", number(r.rms_x_contact)},
-          {"rms_z_without_kinetic", number(r.rms_z_contact)},
-          {"rms_inertia", number(r.inertia)}};
-}
-
-Json content_of(const particles::LogLine& line) {
-  return {{"a", number(line.a)}, {"b", number(line.b)}, {"rms", number(line.rms)}, {"nodes", line.nodes}};
-}
-
 /// mu_invariant of measured.json.
 Json collapse_of(const particles::BulkFriction& collapse, const particles::LogLine& ci99) {
   const auto with = [](double value, double half_width) { return to_json(Scalar{"", value, half_width}); };
-  return {
-      {"a", with(collapse.invariant.a, ci99.a)},
-      {"b", with(collapse.invariant.b, ci99.b)},
-      {"rms", with(collapse.invariant.rms, ci99.rms)},
-      {"noise", number(collapse.noise)},
-      {"nodes", collapse.invariant.nodes},
-      {"share", number(static_cast<double>(collapse.invariant.nodes) / static_cast<double>(collapse.bulk))},
-      {"ratio", content_of(collapse.ratio)}};
+  return {{"a", with(collapse.invariant.a, ci99.a)},
+          {"b", with(collapse.invariant.b, ci99.b)},
+          {"rms", with(collapse.invariant.rms, ci99.rms)},
+          {"noise", collapse.noise},
+          {"nodes", collapse.invariant.nodes},
+          {"share", static_cast<double>(collapse.invariant.nodes) / static_cast<double>(collapse.bulk)},
+          {"ratio", collapse.ratio}};
 }
 
 void write(const particles::Measurement& measured, const PartOutput& output, const MeasureOptions& options,
@@ -76,20 +61,13 @@ void write(const particles::Measurement& measured, const PartOutput& output, con
                                              if (!file) file.emplace(output.folder / "maps.h5", outline);
                                              file->add(rows.fields);
                                            });
-  const particles::MomentumBalance& balance = maps.measured.balance;
-  output.content["momentum_balance"] = {{"bulk", content_of(balance.bulk)},
-                                        {"flowing", content_of(balance.flowing)},
-                                        {"slow", content_of(balance.slow)}};
+  output.content["momentum_balance"] = maps.measured.balance;
   output.content["mu_invariant"] = collapse_of(maps.measured.friction, maps.measured.friction_ci99);
   output.content["settings"]["maps"] = {
-      {"spacing", options.map_spacing},
-      {"kernel_width", options.map_width},
-      {"least_nu", particles::least_map_nu},
-      {"displacement_interval", number(maps.measured.displacement_interval)},
-      {"bulk_margin", limits.margin},
-      {"block", limits.block},
-      {"flowing_I", limits.flowing_I},
-      {"mu_fit_I", {limits.I_min, limits.I_max}}};
+      {"spacing", options.map_spacing},      {"kernel_width", options.map_width},
+      {"least_nu", particles::least_map_nu}, {"displacement_interval", maps.measured.displacement_interval},
+      {"bulk_margin", limits.margin},        {"block", limits.block},
+      {"flowing_I", limits.flowing_I},       {"mu_fit_I", {limits.I_min, limits.I_max}}};
   file->save();
 }
 

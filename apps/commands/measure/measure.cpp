@@ -26,6 +26,7 @@
 #include "coupling/common/errors.hpp"
 #include "coupling/common/files/result_folder.hpp"
 #include "coupling/common/files/text_file.hpp"
+#include "coupling/common/run_status.hpp"
 #include "coupling/documents/csv.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/measurement/frame/intervals.hpp"
@@ -80,7 +81,7 @@ Json finished_run(const ResultFolder& folder) {
   const fs::path& run = folder.path;
   const Json json = read_json(run / "run.json", "drumlin-run-1");
   const Json status = json.value("status", Json());
-  if (status != "finished" || !folder.manifest->complete)
+  if (status != name_of(RunStatus::finished) || !folder.manifest->complete)
     throw InputError(
         fmt::format("{}: the run is unfinished (status {}); continue it with drumlin run --resume",
                     run.string(), status.dump()));

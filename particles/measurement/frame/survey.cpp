@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/documents/enum_names.hpp"
 #include "coupling/statistics/straight_line.hpp"
 #include "particles/measurement/frame/dense_window.hpp"
 #include "particles/measurement/frame/flow_snapshot.hpp"
@@ -160,14 +159,6 @@ SlopeEstimate slope_estimate(const Survey& found, double first_guess, const Slop
   }
   estimate.ci99 = jackknife_ci99(leave_one_out);
   return estimate;
-}
-
-std::string name_of(FrameSource source) {
-  static constexpr EnumNames<FrameSource, 4> names{{{FrameSource::isoline, "isoline"},
-                                                    {FrameSource::centre_of_mass, "centre of mass"},
-                                                    {FrameSource::gravity, "gravity"},
-                                                    {FrameSource::domain, "domain"}}};
-  return name_in(names, source);
 }
 
 }  // namespace drumlin::particles

@@ -15,7 +15,7 @@ namespace drumlin::particles {
 
 /// How the direction of the surface was found.
 enum class FrameSource { isoline, centre_of_mass, gravity, domain };
-std::string name_of(FrameSource source);
+constexpr auto names_of(FrameSource) { return std::array{"isoline", "centre of mass", "gravity", "domain"}; }
 
 /// One value per snapshot.
 struct TimeSeries {

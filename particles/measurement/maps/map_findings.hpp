@@ -54,10 +54,10 @@ struct BalanceResidual {
   std::size_t nodes = 0;
   double rms_x = 0, rms_z = 0;
   double mean_x = 0, mean_z = 0;
-  double noise_x = 0, noise_z = 0;              ///< rms of the residual's standard error; NaN without batches
-  double rms_x_blocks = 0, rms_z_blocks = 0;    ///< of the means over squares; NaN when no square is full
-  double rms_x_contact = 0, rms_z_contact = 0;  ///< with the kinetic stress left out
-  double inertia = 0;                           ///< rms of nu v.grad v of the mean velocity, both components
+  double noise_x = 0, noise_z = 0;            ///< rms of the residual's standard error; NaN without batches
+  double rms_x_blocks = 0, rms_z_blocks = 0;  ///< of the means over squares; NaN when no square is full
+  double rms_x_without_kinetic = 0, rms_z_without_kinetic = 0;  ///< with the kinetic stress left out
+  double rms_inertia = 0;  ///< rms of nu v.grad v of the mean velocity, both components
 };
 
 struct MomentumBalance {
