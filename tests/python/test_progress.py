@@ -81,7 +81,7 @@ def test_an_interrupted_run_goes_on(tmp_path):
         os.kill(os.getpid(), signal.SIGINT)
 
     threading.Thread(target=interrupt, daemon=True).start()
-    scene, changes = SOURCES / "tests/chain/tiny-drum.toml", {"stages.1.turns": 0.2, "stages.2.turns": 0.02, "stages.2.snapshots": 4}
+    scene, changes = SOURCES / "tests/chain/tiny-drum.toml", {"stages.1.turns": 2, "stages.2.turns": 0.02, "stages.2.snapshots": 4}
     with pytest.raises(KeyboardInterrupt, match="RUN: interrupted after step"):
         drumlin.run(scene, tmp_path / "RUN", changes)
     assert drumlin.run(scene, tmp_path / "RUN", changes, resume=True)["run.json"]["status"] == "finished"

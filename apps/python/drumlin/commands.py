@@ -57,7 +57,7 @@ class _Process:
             self._process.wait()
         except KeyboardInterrupt:
             self._process.kill()
-        return _SHARE.sub("", self._text(self._said)).strip() or "interrupted"
+        return _SHARE.sub("", self._text(self._said)).strip() or ("finished" if self._process.returncode == 0 else "interrupted")
 
     def percent(self):
         """How far it says that it has come; None before it says so."""
