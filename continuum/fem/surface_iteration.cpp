@@ -36,25 +36,33 @@ void correct(Response& response, const std::vector<double>& step, const std::vec
   }
 }
 
-// Newton's step on the shape, no higher than `largest` anywhere.
-std::vector<double> step_of(const FlowProblem& problem, const Response& response, const SurfaceMisfit& misfit,
-                            double largest) {
-  std::vector<double> step = solution_of(response, free_part(problem, misfit.coefficient));
+constexpr double largest_step = 8;  // d
+
+// A bound of the height of a step, d.
+double size_of(const std::vector<double>& step) {
   double size = 0;
-  for (double& s : step) size += std::abs(s = -s);
-  if (size > largest)
-    for (double& s : step) s *= largest / size;
+  for (const double s : step) size += std::abs(s);
+  return size;
+}
+
+// Newton's step on the shape, no higher than `largest_step` anywhere.
+std::vector<double> step_of(const FlowProblem& problem, const Response& response,
+                            const SurfaceMisfit& misfit) {
+  std::vector<double> step = solution_of(response, free_part(problem, misfit.coefficient));
+  const double cut = std::min(1.0, largest_step / size_of(step));
+  for (double& s : step) s *= -cut;
   return step;
 }
 
-// One flow with the surface after a step, from where the response puts it. False, where cells or Newton's
-// method fail.
+// One flow with the surface after a step, from where the response puts it, but for far steps. False, where
+// cells or Newton's method fail.
 bool solve_moved(const SurfaceSolver& solver, SolvedLevel& level, const SurfaceShape& shape,
                  const std::vector<double>& step, const SurfaceResponse& response, Settling settling) {
   auto& d = *level.discretisation;
   if (!d.move_surface(level.problem, shape)) return false;
   d.rebuild_pattern();
-  for (std::size_t k = 0; k < step.size(); ++k) {
+  const bool is_near = size_of(step) < 0.5 * largest_step;
+  for (std::size_t k = 0; is_near && k < step.size(); ++k) {
     level.state.solution.add(step[k], response.of_flow[k]);
     level.state.theta += step[k] * response.of_theta[k];
   }
@@ -127,12 +135,11 @@ class Iteration {
 
   // Leaves mesh and state as they were where the step is none.
   bool try_step(double share) {
-    constexpr double largest = 8;  // d
     const FlowProblem& problem = level_.problem;
     const SurfaceShape shape = level_.discretisation->surface.value();
     const State before = level_.state;
     const int iterations = report_.iterations;
-    std::vector<double> step = step_of(problem, response_->matrix, now_, largest);
+    std::vector<double> step = step_of(problem, response_->matrix, now_);
     for (double& s : step) s *= share;
     const Settling settling = problem.memory ? settling_ : Settling::whole;
     if (solve_moved(solver_, level_, changed(problem, shape, step), step, *response_, settling)) {
