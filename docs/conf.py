@@ -54,7 +54,7 @@ def links_within(text, here):
         file = pathlib.Path(os.path.normpath(here / target))
         inside = file.is_relative_to(ROOT / "docs") and file.suffix in (".md", ".png", *([".ipynb"] if NOTEBOOKS else []))
         if file == ROOT / "README.md":
-            return f"[{words}](/index.md)"
+            return f"{{doc}}`{words} </index>`"
         return link[0] if inside else f"{words} (`{file.relative_to(ROOT) if file.is_relative_to(ROOT) else target}`)"
 
     return re.sub(r"(?<!!)\[([^\]\n]+)\]\(([^)\s]+)\)", plain, text)
