@@ -82,7 +82,7 @@ def number(entry):
 
 def draw(record, picture):
     style.use_style()
-    figure, panels = plt.subplots(1, 4, figsize=(13, 3.6))
+    figure, panels = plt.subplots(1, 4, figsize=(13, 4.4))
     kinds = sorted({(run["filling"], run["friction"]) for run in record["runs"]}, key=lambda kind: (kind[0] != "half", -kind[1]))
     for axes, (name, title) in zip(panels, FITTED.items()):
         for (filling, friction), marker, colour in zip(kinds, "osD^", [style.PARTICLES, *style.OTHERS]):
@@ -102,7 +102,8 @@ def draw(record, picture):
         axes.yaxis.set_major_formatter(style.matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:g}"))
         axes.set_xlabel("$D/d$")
         axes.set_title(title + {"theta_deg": " [deg]", "H": " [d]"}.get(name, ""))
-    panels[0].legend(fontsize=6)
+    figure.get_layout_engine().set(rect=(0, 0.16, 1, 0.84))
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="lower center", ncol=5, fontsize=9)
     style.save(figure, picture, False)
 
 
