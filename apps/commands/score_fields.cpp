@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/json/json_file.hpp"
+#include "apps/output/commands.hpp"
 #include "apps/output/figures.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/files/own_folder.hpp"
@@ -46,10 +47,11 @@ void add_invariants(FieldMap& map) {
 
 /// The layers below the middle of the surface that the map covers.
 ProfileSet middle_of(const FieldMap& map) {
-  constexpr double width = 20, thickness = 1;  // d, as `drumlin measure` takes them
+  const MeasureOptions usual;
+  const double thickness = usual.layer_thickness;
   std::vector<double> z;
   for (double at = std::floor(map.grid.z_first) + 0.5; at < 0; at += thickness) z.push_back(at);
-  ProfileSet all = coupling::profile_through(map, 0, width, z, thickness);
+  ProfileSet all = coupling::profile_through(map, 0, usual.slice_width, z, thickness);
   std::vector<std::size_t> known;
   for (std::size_t i = 0; i < z.size(); ++i)
     if (std::isfinite(all.column("v_x").value[i] * all.column("sigma_xz").value[i])) known.push_back(i);
@@ -80,8 +82,7 @@ void write_flow_of_fields(const fs::path& file, const fs::path& folder) {
   if (is_csv && holds_profiles(file)) {
     profiles = read_profiles(file);
     const double d = needed_number(profiles.header, &RunHeader::diameter_m, file.string());
-    scales = {d, std::sqrt(d / 9.81),
-              1};  // of the density a profile says nothing, and no error depends on it
+    scales = scales_of(d, 0, 1);  // of the density a profile says nothing, and no error depends on it
   } else {
     if (is_csv) (void)study_by_script("fields.py", {file.string(), maps.string()});
     FieldMap map = read_field_map(is_csv ? maps : file);

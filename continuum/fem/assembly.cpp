@@ -217,7 +217,7 @@ class CellSystem {
     if (before_.size() > 0) cell->get_dof_values(*setting_.inertia->before, before_);
     contribution.residual = 0;
     contribution.tangent = 0;
-    by_velocity_ = {};
+    if (with_tangent_) by_velocity_ = {};
     for (const unsigned int q : fe_.quadrature_point_indices()) add_point(q, point + q);
     if (with_tangent_) take_over_velocities();
     for (const unsigned int f : cell->face_indices())
@@ -393,16 +393,12 @@ std::vector<PlaneTensor> dual_of(const Discretisation& d, const Regularisation& 
 
 std::vector<PlaneTensor> advanced_dual(const Discretisation& d, const Regularisation& r, const State& state,
                                        const FieldVector& step) {
-  std::vector<PlaneTensor> next;
-  next.reserve(state.dual.size());
+  std::vector<PlaneTensor> next = state.dual;
   dealii::Vector<double> local(d.elements.n_dofs_per_cell()), change(local.size());
   for_each_cell(d, [&](const CellShapes& shapes, const auto& cell, std::size_t first) {
     cell->get_dof_values(state.solution, local);
     cell->get_dof_values(step, change);
-    for (unsigned int q = 0; q < shapes.points.size(); ++q) {
-      const PlaneTensor D = point_values(shapes, q, local).D, dD = point_values(shapes, q, change).D;
-      next.push_back(continuum::advanced_dual(D, dD, state.dual[first + q], regularised_rate(D, r)));
-    }
+    advance_dual(shapes, r, local, change, &next[first]);
   });
   return next;
 }

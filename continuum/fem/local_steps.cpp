@@ -227,12 +227,8 @@ void Patch::advance_dual(double alpha, State& state) const {
     at.cell->get_dof_values(state.solution, local);
     at.cell->get_dof_values(step_, change);
     change *= alpha;
-    for (const unsigned int q : fe.quadrature_point_indices()) {
-      PlaneTensor& dual = state.dual[at.number * d_.quadrature.size() + q];
-      const PlaneTensor D = point_values(shapes, q, local).D;
-      dual = continuum::advanced_dual(D, point_values(shapes, q, change).D, dual,
-                                      regularised_rate(D, setting_.regularisation));
-    }
+    fem::advance_dual(shapes, setting_.regularisation, local, change,
+                      &state.dual[at.number * d_.quadrature.size()]);
   }
 }
 

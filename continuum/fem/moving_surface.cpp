@@ -108,8 +108,9 @@ SurfaceResponse surface_response(Newton& newton, SolvedLevel& level) {
     return newton.corrected(level.setting, state);
   };
   newton.linearise(level.setting, level.state);
-  SurfaceResponse response{.state = after(shape), .misfit = {}, .matrix = dealii::FullMatrix<double>(n, n)};
-  response.misfit = surface_misfit(level.problem, d, response.state);
+  SurfaceResponse response{.matrix = dealii::FullMatrix<double>(n, n)};
+  State before = after(shape);
+  const SurfaceMisfit misfit_before = surface_misfit(level.problem, d, before);
   for (std::size_t k = 0; k < n; ++k) {
     SurfaceShape changed = shape;
     changed.coefficient[first + k] += difference;
@@ -118,12 +119,13 @@ SurfaceResponse surface_response(Newton& newton, SolvedLevel& level) {
     const SurfaceMisfit misfit = surface_misfit(level.problem, d, here);
     for (std::size_t i = 0; i < n; ++i)
       response.matrix(i, k) =
-          (misfit.coefficient[first + i] - response.misfit.coefficient[first + i]) / difference;
-    here.solution.sadd(1 / difference, -1 / difference, response.state.solution);
+          (misfit.coefficient[first + i] - misfit_before.coefficient[first + i]) / difference;
+    here.solution.sadd(1 / difference, -1 / difference, before.solution);
     response.of_flow.push_back(std::move(here.solution));
-    response.of_theta.push_back((here.theta - response.state.theta) / difference);
+    response.of_theta.push_back((here.theta - before.theta) / difference);
   }
   if (!d.move_surface(level.problem, shape)) throw std::logic_error("a cell that was valid no more is");
+  level.state = std::move(before);
   return response;
 }
 

@@ -61,11 +61,11 @@ bool solve_moved(const SurfaceSolver& solver, SolvedLevel& level, const SurfaceS
   auto& d = *level.discretisation;
   if (!d.move_surface(level.problem, shape)) return false;
   d.rebuild_pattern();
-  const bool is_near = size_of(step) < 0.5 * largest_step;
-  for (std::size_t k = 0; is_near && k < step.size(); ++k) {
-    level.state.solution.add(step[k], response.of_flow[k]);
-    level.state.theta += step[k] * response.of_theta[k];
-  }
+  if (size_of(step) < 0.5 * largest_step)
+    for (std::size_t k = 0; k < step.size(); ++k) {
+      level.state.solution.add(step[k], response.of_flow[k]);
+      level.state.theta += step[k] * response.of_theta[k];
+    }
   d.constraints.distribute(level.state.solution);
   level.state.solution.update_ghost_values();
   return solver.solve(*solver.newton(), settling);
@@ -116,14 +116,15 @@ class Iteration {
   }
 
   bool form_response() {
+    const SurfaceShape shape = level_.discretisation->surface.value();
     try {
       response_ = surface_response(*solver_.newton(), level_);
     } catch (const NotConvergedError& error) {
       report_.failure = error.what();
+      put_back(shape);
       return false;
     }
-    level_.state = response_->state;
-    now_ = response_->misfit;
+    now_ = misfit();
     return true;
   }
 
@@ -158,10 +159,14 @@ class Iteration {
       }
     }
     level_.state = before;
-    if (!level_.discretisation->move_surface(problem, shape))
-      throw std::logic_error("cells that were valid are no more");
+    put_back(shape);
     level_.discretisation->rebuild_pattern();
     return false;
+  }
+
+  void put_back(const SurfaceShape& shape) {
+    if (!level_.discretisation->move_surface(level_.problem, shape))
+      throw std::logic_error("cells that were valid are no more");
   }
 
   void record(double share, int iterations) {

@@ -57,7 +57,7 @@ class _Process:
             self._process.wait()
         except KeyboardInterrupt:
             self._process.kill()
-        return _SHARE.sub("", self._text(self._said)).strip() or ("finished" if self._process.returncode == 0 else "interrupted")
+        return self._words() or ("finished" if self._process.returncode == 0 else "interrupted")
 
     def percent(self):
         """How far it says that it has come; None before it says so."""
@@ -69,10 +69,13 @@ class _Process:
         code = self._process.wait()
         if code == 0:
             return self._text(self._printed)
-        text = _SHARE.sub("", self._text(self._said)).strip() or f"drumlin ended with exit code {code}"
+        text = self._words() or f"drumlin ended with exit code {code}"
         if code in (130, -signal.SIGINT):
             raise KeyboardInterrupt(text)
         raise _KINDS.get(code, DrumlinError)(text)
+
+    def _words(self):
+        return _SHARE.sub("", self._text(self._said)).strip()
 
     @staticmethod
     def _text(file):

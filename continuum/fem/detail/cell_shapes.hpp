@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "continuum/fem/detail/discretisation.hpp"
-#include "continuum/rheology/plane_tensor.hpp"
+#include "continuum/rheology/tensor_law.hpp"
 
 namespace drumlin::continuum::fem {
 
@@ -116,6 +116,15 @@ inline PointValues point_values(const CellShapes& s, unsigned int q, const deali
       at.fluidity_slope[1] += here * shape.slope[b][1];
     }
   return at;
+}
+
+/// Advances the dual variable at each point of a cell by a change of the cell's unknowns.
+inline void advance_dual(const CellShapes& s, const Regularisation& r, const dealii::Vector<double>& local,
+                         const dealii::Vector<double>& change, PlaneTensor* dual) {
+  for (unsigned int q = 0; q < s.points.size(); ++q) {
+    const PlaneTensor D = point_values(s, q, local).D, dD = point_values(s, q, change).D;
+    dual[q] = continuum::advanced_dual(D, dD, dual[q], regularised_rate(D, r));
+  }
 }
 
 /// Calls visit(shapes, cell, point) for this rank's cells, `point` the number of their first quadrature

@@ -26,18 +26,16 @@ double slope_half_length(const FlowProblem&);
 /// Collective.
 SurfaceMisfit surface_misfit(const FlowProblem&, const Discretisation&, const State&);
 
-/// A flow and its misfit after one step of Newton's method with the surface as it is, and their derivatives
-/// by the free coefficients of the shape when the flow follows.
+/// Derivatives of a flow and its misfit by the free coefficients of the shape when the flow follows.
 struct SurfaceResponse {
-  State state;
-  SurfaceMisfit misfit;
   dealii::FullMatrix<double> matrix;      ///< of the free coefficients of the misfit
   std::vector<FieldVector> of_flow = {};  ///< of velocity and pressure, for each coefficient
   std::vector<double> of_theta = {};
 };
 
-/// By differences, one linear solve for each coefficient with the factors of the tangent. Mesh and state of
-/// the level are left as they were.
+/// By differences, one linear solve for each coefficient with the factors of the tangent. Leaves the level
+/// after one step of Newton's method with the surface as it is. Throws NotConvergedError, the surface then
+/// being off by a difference.
 SurfaceResponse surface_response(Newton&, SolvedLevel&);
 
 /// x of A x = b.

@@ -23,7 +23,7 @@ Descriptor open_nameless(const std::filesystem::path& folder) {
   Descriptor file(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
   if (file.number() >= 0) return file;
   // Not every file system has files without a name: one that loses its name at once.
-  std::string name = folder / ".drumlin-scratch-XXXXXX";
+  std::string name = folder / ".drumlin-scratch-XXXXXX";  // mkostemp() puts letters in place of the X
   file = Descriptor(::mkostemp(name.data(), O_CLOEXEC));
   if (file.number() < 0) give_up(folder, "made");
   ::unlink(name.c_str());

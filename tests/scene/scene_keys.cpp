@@ -7,7 +7,7 @@ namespace drumlin {
 using namespace particles;
 namespace {
 
-TEST(SceneDocs, SayAnUnitInEveryKeyThatHasOne) {
+TEST(SceneKeys, SayAnUnitInEveryKeyThatHasOne) {
   for (const auto& row : scene_keys()) {
     EXPECT_FALSE(row.sentence.empty()) << row.path;
     // Dimensionless counts (turns, mean diameters) need none.
