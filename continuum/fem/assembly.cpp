@@ -168,19 +168,6 @@ void add_inertia(const FlowProblem& problem, const InertiaSetting& inertia, cons
   if (tangent) add_inertia_tangent(s, q, at, density, per_time, JxW, *tangent);
 }
 
-// Takes what holds the velocity along x off the force.
-void add_hold(const FlowProblem& problem, const CellShapes& s, unsigned int q, const dealii::Point<2>& x,
-              double JxW, const PointMotion& at, Vec2& force, VelocityTangent* tangent) {
-  const Hold hold = problem.held({x[0], x[1]});
-  if (hold.stiffness == 0) return;
-  force.x -= hold.stiffness * (at.u[0] + frame_velocity_at(problem, x).x - hold.velocity);
-  if (!tangent) return;
-  const auto& value = s.points[q].value;
-  for (unsigned int b = 0; b < s.nodes; ++b)
-    for (unsigned int a = 0; a < s.nodes; ++a)
-      (*tangent)[0][b][0][a] += hold.stiffness * value[a] * value[b] * JxW;
-}
-
 /// What one cell after the other adds to the residual and to the tangent, in its own numbering.
 template <class PointLaw>
 class CellSystem {
@@ -244,8 +231,6 @@ class CellSystem {
     if (setting_.inertia)
       add_inertia(problem_, *setting_.inertia, shapes_, q, fe_.quadrature_point(q), fe_.JxW(q), at.motion,
                   before_, force, by_velocity);
-    if (problem_.held)
-      add_hold(problem_, shapes_, q, fe_.quadrature_point(q), fe_.JxW(q), at.motion, force, by_velocity);
     add_point_residual(shapes_, q, at, response.stress, force, fe_.JxW(q), contribution.residual);
     if (with_tangent_)
       add_point_tangent(shapes_, q, response, fe_.JxW(q), by_velocity_, contribution.tangent);

@@ -38,12 +38,11 @@ DrumGeometry drum_geometry(const FlowScene& scene, double nu) {
   return drum;
 }
 
-Vec2 tapered_wall_velocity(const DrumGeometry& drum, double taper, Vec2 point, Vec2 left, Vec2 right) {
+Vec2 entraining_wall_velocity(const DrumGeometry& drum, double length, Vec2 point, Vec2 left, Vec2 right) {
   const double from_corner = std::min(std::hypot(point.x - left.x, point.z - left.z),
                                       std::hypot(point.x - right.x, point.z - right.z));
-  const double s = std::min(1.0, from_corner / taper);
+  const double share = -std::expm1(-from_corner / length);
   const Vec2 rigid = rigid_rotation(drum.rotation, drum.axis_offset, point);
-  const double share = s * s * (3 - 2 * s);
   return {share * rigid.x, share * rigid.z};
 }
 
@@ -54,63 +53,25 @@ int resolved_degree(double half_width, double cell) {
   return std::clamp(static_cast<int>(std::numbers::pi * std::sqrt(half_width / (1.6 * cell))), 4, 60);
 }
 
-// Linear between the places, which ascend; beyond their ends as there.
-double between(const std::vector<double>& places, const std::vector<double>& values, double at) {
-  const auto next = std::upper_bound(places.begin(), places.end(), at);
-  if (next == places.begin()) return values.front();
-  if (next == places.end()) return values.back();
-  const auto i = static_cast<std::size_t>(next - places.begin());
-  const double share = (at - places[i - 1]) / (places[i] - places[i - 1]);
-  return (1 - share) * values[i - 1] + share * values[i];
-}
-
-void add_given_slip(const FlowGivenSlip& slip, const DrumGeometry& drum, FlowProblem& problem) {
-  const auto lagging = [slip, axis = drum.axis_offset](Vec2 point, Vec2 wall) {
-    const double angle = std::atan2(point.x, axis - point.z) * 180 / std::numbers::pi;
-    const double share = 1 - between(slip.angle_deg, slip.share, angle);
-    return Vec2{share * wall.x, share * wall.z};
-  };
-  auto& fixed = std::get<PrescribedVelocity>(problem.boundary[Side::bottom]).velocity;
-  fixed = [lagging, wall = fixed](Vec2 point) { return lagging(point, wall(point)); };
-  if (!problem.moving_surface) return;
-  auto& moving = problem.moving_surface->wall_velocity;
-  moving = [lagging, wall = moving](Vec2 point, Vec2 left, Vec2 right) {
-    return lagging(point, wall(point, left, right));
-  };
-}
-
-void add_held_line(const FlowHeldLine& line, const DrumGeometry& drum, FlowProblem& problem) {
-  problem.held = [line, drum](Vec2 point) {
-    if (point.x < line.x.front() || point.x > line.x.back()) return Hold{};
-    const double above = point.z - drum.axis_offset - between(line.x, line.z, point.x);
-    const double s = above / line.half_width;
-    const double relative =
-        between(line.x, line.v_x, point.x) + above * between(line.x, line.shear_rate, point.x);
-    return Hold{line.stiffness * std::max(0.0, 1 - s * s),
-                rigid_rotation(drum.rotation, drum.axis_offset, point).x + relative};
-  };
-}
-
 void add_effects_of_the_drum(const FlowScene& scene, const DrumGeometry& drum, FlowProblem& problem) {
   const FlowEffects& effects = scene.effects;
   if (effects.rotating_frame) problem.frame = RotatingFrame{drum.rotation, drum.axis_offset};
   if (problem.memory) problem.memory->turn = drum.rotation < 0 ? -1 : 1;
   if (const auto& moving = effects.moving_surface)
-    problem.moving_surface = MovingSurface{
-        .degree =
-            moving->degree ? *moving->degree : resolved_degree(drum.half_chord(), scene.mesh.surface_cell),
-        .tolerance = moving->tolerance,
-        .slope_half_length = std::min(20.0, 0.5 * drum.half_chord()),
-        .wall_velocity = [drum, taper = scene.boundary->corner_taper](Vec2 point, Vec2 left, Vec2 right) {
-          return tapered_wall_velocity(drum, taper, point, left, right);
-        }};
-  if (const auto& slip = effects.wall_slip)  // no taper: the wall slides along the corners
+    problem.moving_surface =
+        MovingSurface{.degree = moving->degree ? *moving->degree
+                                               : resolved_degree(drum.half_chord(), scene.mesh.surface_cell),
+                      .tolerance = moving->tolerance,
+                      .slope_half_length = std::min(20.0, 0.5 * drum.half_chord()),
+                      .wall_velocity = [drum, length = scene.boundary->entrainment_length](
+                                           Vec2 point, Vec2 left, Vec2 right) {
+                        return entraining_wall_velocity(drum, length, point, left, right);
+                      }};
+  if (const auto& slip = effects.wall_slip)  // the wall slides along the corners
     problem.boundary[Side::bottom] = FrictionWall{
         .velocity = [drum](Vec2 point) { return rigid_rotation(drum.rotation, drum.axis_offset, point); },
         .friction = slip->friction,
         .slip_speed = slip->slip_speed};
-  if (effects.given_slip) add_given_slip(*effects.given_slip, drum, problem);
-  if (effects.held_line) add_held_line(*effects.held_line, drum, problem);
 }
 
 FlowProblem drum_without_law(const DrumGeometry& drum, const FlowMesh& mesh, const FlowBoundary& boundary,
@@ -126,9 +87,10 @@ FlowProblem drum_without_law(const DrumGeometry& drum, const FlowMesh& mesh, con
   problem.density = drum.nu;
   problem.slope = drum.slope ? Slope(FixedSlope{*drum.slope}) : Slope(SlopeFromMoment{});
   problem.boundary[Side::top] = NormalSpring{boundary.surface_stiffness};
-  problem.boundary[Side::bottom] = PrescribedVelocity{[drum, taper = boundary.corner_taper](Vec2 point) {
-    return tapered_wall_velocity(drum, taper, point, {-drum.half_chord(), 0}, {drum.half_chord(), 0});
-  }};
+  problem.boundary[Side::bottom] =
+      PrescribedVelocity{[drum, length = boundary.entrainment_length](Vec2 point) {
+        return entraining_wall_velocity(drum, length, point, {-drum.half_chord(), 0}, {drum.half_chord(), 0});
+      }};
   return problem;
 }
 

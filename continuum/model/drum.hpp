@@ -24,13 +24,13 @@ struct DrumGeometry {
 /// Of a scene with a drum. Throws InputError if the grains, at the law's nu, do not fit into the drum.
 DrumGeometry drum_geometry(const FlowScene& scene, double nu);
 
-/// The wall's velocity, rising from nought over `taper` from the ends of the surface: there the wall would
-/// drag material through it.
-Vec2 tapered_wall_velocity(const DrumGeometry& drum, double taper, Vec2 point, Vec2 left, Vec2 right);
+/// Velocity of the material at the wall: the share 1 - exp(-s/length) of the wall's, s being the distance
+/// from the nearer end of the surface. Measured where material meets the wall (docs/results/bed.md).
+Vec2 entraining_wall_velocity(const DrumGeometry& drum, double length, Vec2 point, Vec2 left, Vec2 right);
 
 /// The drum of a scene with a law, complete: mu, k, weight, sides, and every effect that the scene names.
 /// Laboratory frame, chord at z = 0, slope from the moment of the surface traction unless the scene gives it.
-/// On the wall the drum's velocity, rising from nought over corner_taper at both ends of the chord. Throws
+/// On the wall entraining_wall_velocity(). Throws
 /// InputError if the grains do not fit into the drum or the law does not allow an effect of the scene.
 FlowProblem drum_problem(const FlowScene& scene, const RheologyFit& law);
 

@@ -149,12 +149,6 @@ struct MovingSurface {
   std::function<Vec2(Vec2 point, Vec2 left, Vec2 right)> wall_velocity = {};
 };
 
-/// Force on the material along x: stiffness times what its velocity there lacks of `velocity` (laboratory).
-struct Hold {
-  double stiffness = 0;
-  double velocity = 0;
-};
-
 struct FlowProblem {
   Domain domain;
   std::map<Side, BoundaryCondition> boundary;
@@ -170,7 +164,6 @@ struct FlowProblem {
   double density = 0;                ///< nu; the weight is density (sin theta, -cos theta)
   Slope slope;
   std::function<Vec2(Vec2)> extra_force;  ///< added to the weight; empty: absent
-  std::function<Hold(Vec2)> held;         ///< velocity held near a place; empty: nowhere
   /// mu that statics alone asks for somewhere, where that is not the tan of a given slope.
   std::optional<double> needed_friction;
   std::optional<Inertia> inertia;               ///< absent: slow flow, 0 = -grad p + div tau + f

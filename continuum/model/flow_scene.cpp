@@ -67,8 +67,8 @@ void describe(Visitor& v, FlowMesh& m) {
 }
 template <class Visitor>
 void describe(Visitor& v, FlowBoundary& b) {
-  v.value("corner_taper", b.corner_taper,
-          defaulted("d", above(0, 100), "Over which the wall's speed rises from 0 at the surface."));
+  v.value("entrainment_length", b.entrainment_length,
+          defaulted("d", above(0, 100), "At s from the surface the wall's material lags by exp(-s/length)."));
   v.value("surface_stiffness", b.surface_stiffness,
           defaulted("rho0 g", above(0, 1e8), "T_nn = -stiffness u_n."));
 }
@@ -99,23 +99,6 @@ void describe(Visitor& v, FlowWallSlip& s) {
           defaulted("sqrt(g d)", above(0, 1), "Speed at which friction is nearly full."));
 }
 template <class Visitor>
-void describe(Visitor& v, FlowGivenSlip& s) {
-  v.value("angle_deg", s.angle_deg,
-          required("deg", at_least(-90, 90), "From below the axis, positive downslope, ascending."));
-  v.value("share", s.share,
-          required("", at_least(-1, 1), "Of the wall's speed that material there lacks; linear between."));
-}
-template <class Visitor>
-void describe(Visitor& v, FlowHeldLine& h) {
-  v.value("x", h.x, required("d", at_least(-1e4, 1e4), "Places along the surface, ascending."));
-  v.value("z", h.z, required("d", at_least(-1e4, 1e4), "Of the line there, from the axis."));
-  v.value("v_x", h.v_x, required("sqrt(g d)", at_least(-1e4, 1e4), "There, relative to the drum."));
-  v.value("shear_rate", h.shear_rate, required("sqrt(g/d)", at_least(-1e4, 1e4), "dv_x/dz there."));
-  v.value("half_width", h.half_width, defaulted("d", above(0, 100), "How far from the line, along z."));
-  v.value("stiffness", h.stiffness,
-          defaulted("rho0 sqrt(g/d)", above(0, 1e8), "Force over what the velocity lacks, on the line."));
-}
-template <class Visitor>
 void describe(Visitor&, FlowMemory&) {}
 template <class Visitor>
 void describe(Visitor& v, FlowNonlocal& n) {
@@ -135,8 +118,6 @@ void describe(Visitor& v, FlowEffects& e) {
   v.optional_table("inertia", e.inertia, "nu u.grad u in the balance of momentum.");
   v.optional_table("rotating_frame", e.rotating_frame, "Velocities seen from the drum; no answer changes.");
   v.optional_table("wall_slip", e.wall_slip, "Sliding along the wall.");
-  v.optional_table("given_slip", e.given_slip, "Material at the wall lags behind it by given shares.");
-  v.optional_table("held_line", e.held_line, "v_x held near a line: for experiments.");
   v.optional_table("memory", e.memory, "Memory of the axes, by the law's [memory].");
   v.optional_table("nonlocal", e.nonlocal,
                    "g - length^2 lap g = g_loc, or amplitude^2 lap g/g = mu(I) - mu.");
@@ -182,33 +163,6 @@ void describe(Visitor& v, FlowScene& s) {
 
 namespace {
 
-// Tables of equal length over an ascending first one.
-void check_tables(const Document& document, const std::string& effect, const std::vector<double>& places,
-                  const std::vector<std::pair<const char*, const std::vector<double>*>>& values,
-                  const char* place, std::vector<InputProblem>& problems) {
-  if (std::adjacent_find(places.begin(), places.end(), std::greater_equal<>()) != places.end())
-    problems.push_back(
-        problem_at(document, effect + "." + place, "goes back", "each larger than the one before"));
-  for (const auto& [key, table] : values)
-    if (table->size() != places.size())
-      problems.push_back(problem_at(document, effect + "." + key,
-                                    "has another number of entries than " + std::string(place),
-                                    std::to_string(places.size()) + " entries"));
-}
-
-void check_edges(const Document& document, const FlowEffects& effects, std::vector<InputProblem>& problems) {
-  if (effects.wall_slip && effects.given_slip)
-    problems.push_back(problem_at(document, "effects.wall_slip", "finds the slip that is given",
-                                  "absent with effects.given_slip"));
-  if (const auto& slip = effects.given_slip) {
-    check_tables(document, "effects.given_slip", slip->angle_deg, {{"share", &slip->share}}, "angle_deg",
-                 problems);
-  }
-  if (const auto& line = effects.held_line)
-    check_tables(document, "effects.held_line", line->x,
-                 {{"z", &line->z}, {"v_x", &line->v_x}, {"shear_rate", &line->shear_rate}}, "x", problems);
-}
-
 // What only one geometry can make sense of is refused in the others: it would be read and mean nothing.
 void check_drum(const Document& document, FlowScene& scene, std::vector<InputProblem>& problems) {
   const auto& drum = std::get<FlowDrum>(scene.geometry);
@@ -226,7 +180,6 @@ void check_drum(const Document& document, FlowScene& scene, std::vector<InputPro
       problems.push_back(problem_at(document, path, "is one of the steady flow", "absent with [time]"));
   };
   refuse_in_time(scene.effects.rotating_frame.has_value(), "effects.rotating_frame");
-  refuse_in_time(scene.effects.held_line.has_value(), "effects.held_line");
   refuse_in_time(scene.effects.memory.has_value(), "effects.memory");
   refuse_in_time(scene.effects.nonlocal.has_value(), "effects.nonlocal");
   refuse_in_time(scene.effects.moving_surface.has_value(), "effects.moving_surface");
@@ -243,7 +196,6 @@ void check_drum(const Document& document, FlowScene& scene, std::vector<InputPro
     problems.push_back(problem_at(document, "drum.slope_deg",
                                   "leaves the axes where a surface that moves turns itself",
                                   "absent with effects.moving_surface"));
-  check_edges(document, scene.effects, problems);
   if (!scene.boundary) scene.boundary.emplace();
   if (!scene.output.slice_width) scene.output.slice_width = 20;
 }
@@ -258,8 +210,6 @@ void refuse_keys_of_the_drum(const Document& document, const FlowScene& scene,
   if (scene.effects.inertia) refuse("effects.inertia");
   if (scene.effects.rotating_frame) refuse("effects.rotating_frame");
   if (scene.effects.wall_slip) refuse("effects.wall_slip");
-  if (scene.effects.given_slip) refuse("effects.given_slip");
-  if (scene.effects.held_line) refuse("effects.held_line");
   if (scene.time) refuse("time");
   if (scene.effects.memory) refuse("effects.memory");
   if (scene.effects.nonlocal) refuse("effects.nonlocal");

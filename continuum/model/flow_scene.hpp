@@ -60,7 +60,7 @@ struct FlowMesh {
   double refined_share = 1;
 };
 struct FlowBoundary {
-  double corner_taper = 4;         ///< d
+  double entrainment_length = 3;   ///< d
   double surface_stiffness = 1e4;  ///< rho0 g
 };
 struct FlowRegularisation {
@@ -79,20 +79,6 @@ struct FlowRotatingFrame {};
 struct FlowWallSlip {
   double friction = 0;       ///< of the wall against the grains
   double slip_speed = 1e-4;  ///< sqrt(g d)
-};
-/// Of material at the wall against it, linear over the angle, beyond the ends as there.
-struct FlowGivenSlip {
-  std::vector<double> angle_deg = {};  ///< from below the axis, positive downslope
-  std::vector<double> share = {};      ///< of the wall's speed
-};
-/// Velocity along the surface held near a line, as in the frame of the drum.
-struct FlowHeldLine {
-  std::vector<double> x = {};           ///< d
-  std::vector<double> z = {};           ///< from the axis, d
-  std::vector<double> v_x = {};         ///< sqrt(g d)
-  std::vector<double> shear_rate = {};  ///< dv_x/dz, by which v_x changes away from the line; sqrt(g/d)
-  double half_width = 1.5;              ///< d
-  double stiffness = 1000;              ///< rho0 g over sqrt(g d), on the line
 };
 /// Takes no key: the law says all.
 struct FlowMemory {};
@@ -113,8 +99,6 @@ struct FlowEffects {
   std::optional<FlowInertia> inertia;
   std::optional<FlowRotatingFrame> rotating_frame;
   std::optional<FlowWallSlip> wall_slip;
-  std::optional<FlowGivenSlip> given_slip;
-  std::optional<FlowHeldLine> held_line;
   std::optional<FlowMemory> memory;
   std::optional<FlowNonlocal> nonlocal;
   std::optional<FlowMovingSurface> moving_surface;

@@ -102,8 +102,6 @@ void refuse_effects_of_the_drum(const FlowEffects& effects) {
   };
   refuse(effects.rotating_frame.has_value(), "effects.rotating_frame");
   refuse(effects.wall_slip.has_value(), "effects.wall_slip");
-  refuse(effects.given_slip.has_value(), "effects.given_slip");
-  refuse(effects.held_line.has_value(), "effects.held_line");
   refuse(effects.moving_surface.has_value(), "effects.moving_surface");
   if (!problems.empty()) throw InputError(problems);
 }

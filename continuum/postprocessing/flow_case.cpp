@@ -22,7 +22,7 @@ FlowCase drum_case(const FlowScene& scene, const RheologyFit& law) {
   result.given = {{{"nu", drum.nu, {}}, {"chord_offset", drum.axis_offset, {}}}};
   result.settings = {{{"drum_radius", drum.radius, {}},
                       {"rotation", drum.rotation, {}},
-                      {"corner_taper", scene.boundary->corner_taper, {}},
+                      {"entrainment_length", scene.boundary->entrainment_length, {}},
                       {"surface_stiffness", scene.boundary->surface_stiffness, {}},
                       {"slice_width", slice_width(slice, drum), {}}}};
   result.profile_header = [drum, slice](const FlowField& field) {

@@ -69,8 +69,6 @@ TEST(DrumProblem, HoldsAllThatTheSceneAndTheLawName) {
   scene.effects = FlowEffects{.inertia = FlowInertia{},
                               .rotating_frame = FlowRotatingFrame{},
                               .wall_slip = FlowWallSlip{.friction = 0.4, .slip_speed = 2e-4},
-                              .given_slip = {},
-                              .held_line = {},
                               .memory = {},
                               .nonlocal = FlowNonlocal{.length = 1.5},
                               .moving_surface = FlowMovingSurface{.degree = 12, .tolerance = 0.02}};
@@ -95,37 +93,21 @@ TEST(DrumProblem, HoldsAllThatTheSceneAndTheLawName) {
   EXPECT_EQ(wall.slip_speed, 2e-4);
 }
 
-TEST(DrumProblem, WallAndLineAreHeldAsTheirTablesSay) {
+TEST(DrumProblem, WallTakesTheMaterialAlongOverOneLength) {
   FlowScene scene = paper_scene();
-  scene.effects = {};
-  scene.effects.given_slip = FlowGivenSlip{.angle_deg = {-60, 0}, .share = {0.05, 0.01}};
-  scene.effects.held_line = FlowHeldLine{.x = {-10, 10},
-                                         .z = {-20, -22},
-                                         .v_x = {0.1, 0.3},
-                                         .shear_rate = {0.04, 0.04},
-                                         .half_width = 2,
-                                         .stiffness = 8};
   scene.effects.moving_surface = FlowMovingSurface{};
   const FlowProblem problem = drum_problem(scene, paper_law());
   const DrumGeometry drum = drum_geometry(scene, 0.82);
-  const auto& wall = std::get<PrescribedVelocity>(problem.boundary.at(Side::bottom)).velocity;
-  const double ends = drum.half_chord();
-  for (const auto& [angle, share] : {std::pair{-90.0, 0.05}, {-30.0, 0.03}, {0.0, 0.01}, {50.0, 0.01}}) {
-    const double phi = angle * std::numbers::pi / 180;
-    const Vec2 at{drum.radius * std::sin(phi), drum.axis_offset - drum.radius * std::cos(phi)};
-    const double speed = drum.rotation * drum.radius * (1 - share);
-    if (angle > -80) {
-      EXPECT_NEAR(std::hypot(wall(at).x, wall(at).z), speed, 1e-12) << angle;
-    }
-    const Vec2 moving = problem.moving_surface->wall_velocity(at, {-ends, 50}, {ends, 50});
-    EXPECT_NEAR(std::hypot(moving.x, moving.z), speed, 1e-12) << angle;
+  const double length = scene.boundary->entrainment_length;
+  // At these distances from the right end of a surface that lies where it did, or has gone there.
+  for (const double s : {0.0, 1.0, length, 4 * length}) {
+    const Vec2 at{0, drum.axis_offset - drum.radius};
+    const Vec2 moving = problem.moving_surface->wall_velocity(at, {-60, 0}, {at.x + s, at.z});
+    EXPECT_NEAR(moving.x, -drum.rotation * drum.radius * (1 - std::exp(-s / length)), 1e-12) << s;
+    EXPECT_NEAR(moving.z, 0, 1e-12);
   }
-  // In the middle, 1 d above the line at z = -21: a quarter of the way to where nothing holds, squared.
-  const Hold hold = problem.held({0, drum.axis_offset - 20});
-  EXPECT_NEAR(hold.stiffness, 8 * 0.75, 1e-12);
-  EXPECT_NEAR(hold.velocity, -20 * drum.rotation + 0.2 + 0.04, 1e-12);
-  EXPECT_EQ(problem.held({0, drum.axis_offset - 18.9}).stiffness, 0);
-  EXPECT_EQ(problem.held({11, drum.axis_offset - 22}).stiffness, 0);
+  const auto& wall = std::get<PrescribedVelocity>(problem.boundary.at(Side::bottom)).velocity;
+  EXPECT_EQ(wall({drum.half_chord(), 0}).z, 0);
 }
 
 TEST(DrumProblem, HoldsNoEffectThatNobodyNames) {
@@ -133,8 +115,7 @@ TEST(DrumProblem, HoldsNoEffectThatNobodyNames) {
   scene.effects = {};
   const FlowProblem problem = drum_problem(scene, paper_law());
   EXPECT_FALSE(problem.turned || problem.nonlocal || problem.threshold_fluidity || problem.memory ||
-               problem.inertia || problem.frame || problem.moving_surface || problem.extra_force ||
-               problem.held);
+               problem.inertia || problem.frame || problem.moving_surface || problem.extra_force);
 }
 
 std::vector<std::string> refused(const FlowScene& scene, const RheologyFit& law) {

@@ -63,7 +63,7 @@ TEST(Inertia, IsFollowedToThePapersDrumAtTheEpsOfTheScenes) {
 
 FlowProblem drum_with_friction(double friction) {
   FlowProblem problem = small_drum_problem();
-  // The whole wall moves: where it meets the surface it slides along the material, and needs no taper.
+  // The whole wall moves: where it meets the surface it slides along the material.
   const auto velocity = [](Vec2 x) { return rigid_rotation(drum.rotation, drum.axis_offset, x); };
   problem.boundary[Side::bottom] = FrictionWall{.velocity = velocity, .friction = friction};
   return problem;
@@ -84,39 +84,6 @@ TEST(FrictionWall, DissipatesWhatItAndTheWeightSupply) {
   const FlowIntegrals sums = field.integrals({0, drum.axis_offset});
   EXPECT_NEAR(sums.dissipation / (sums.given_side_power + sums.weight_power), 1, 2e-3);
   EXPECT_NEAR(sums.given_side_torque / -sums.weight_torque, 1, 1e-3);
-}
-
-TEST(GivenSlip, OfOneShareTurnsTheDrumThatMuchSlower) {
-  const auto scene = [](const char* rotation, const char* effects) {
-    return parse_flow_scene(
-        std::string(R"(format = "drumlin-flow-scene-1"
-[drum]
-diameter_mm = 99
-slope_deg = 18
-rotation_rpm = )") +
-            rotation +
-            "\n[grains]\ncount = 300\ndiameter_min_mm = 3.0\ndiameter_max_mm = 3.6\n"
-            "density_kg_m3 = 2700\n[mesh]\nsurface_cell = 2\nsurface_zone = 6\nlevels = 1\n"
-            "[regularisation]\nshear_rate = 1e-3\n" +
-            effects,
-        "test");
-  };
-  RheologyFit law;
-  law.mu = LogFriction{.a = 0.35, .b = 0.013};
-  law.nu = 0.82;
-  const auto lagging =
-      drum_problem(scene("10", "[effects.given_slip]\nangle_deg = [-20, 30]\nshare = [0.3, 0.3]\n"), law);
-  expect_same_flow(converged(lagging, one_mesh()), converged(drum_problem(scene("7", ""), law), one_mesh()),
-                   1e-7);
-}
-
-TEST(HeldVelocity, DragsAViscousLayerAlongAsBrinkmanSays) {
-  // viscosity u'' = stiffness (u - 1), at rest at z = -4, free at z = 0: u = 1 - cosh(2 z)/cosh(8).
-  FlowProblem problem = strip(4, 16, NewtonianLaw{0.5}, constant_traction(0, 0));
-  problem.held = [](Vec2) { return Hold{.stiffness = 2, .velocity = 1}; };
-  const FlowField field = converged(problem, one_mesh());
-  for (const double z : {-0.1, -2.0, -3.0, -3.6})  // (2 cell)^3/100 is the error of quadratic elements
-    EXPECT_NEAR(state_at(field, {0, z}).velocity.x, 1 - std::cosh(2 * z) / std::cosh(8.0), 1e-3) << z;
 }
 
 // What Newton's method holds for a problem: unknowns, entries of its matrix.
@@ -165,7 +132,7 @@ TEST(AdaptiveMesh, HalvesAShareOfTheCellsAndStaysCloseToTheFineMesh) {
     options.refined_share = share;
     return converged(
         drum_problem(drum, LogLaw{0.35, 0.013}, {.surface_cell = 1, .surface_zone = 6, .levels = 3},
-                     {.corner_taper = 3}, {.shear_rate = 1e-3}),
+                     {.entrainment_length = 1}, {.shear_rate = 1e-3}),
         options);
   };
   const FlowField fine = solved(3, 1), adapted = solved(3, 0.3);

@@ -62,14 +62,6 @@ TEST(FlowScene, HasTheEffectsThatItNames) {
   EXPECT_FALSE(creeping.length);
   expect_has(refusal(smallest + "[effects.nonlocal]\nlength = 1\namplitude = 0.5\n", {}),
              "effects.nonlocal.amplitude");
-  const std::string slip = smallest + "[effects.given_slip]\nangle_deg = [-60, 0]\n";
-  EXPECT_EQ(parse_flow_scene(slip + "share = [0.05, 0]\n", "test").effects.given_slip->share[0], 0.05);
-  for (const char* refused : {"share = [0.05]\n", "share = [0.05, 2]\n"})
-    expect_has(refusal(slip + refused), "effects.given_slip.share");
-  expect_has(refusal(slip + "share = [0, 0]\n[effects.wall_slip]\nfriction = 1\n"), "effects.wall_slip");
-  const std::string line = smallest + "[effects.held_line]\nz = [-9, -9]\nv_x = [1, 1]\n";
-  expect_has(refusal(line + "x = [2, 2]\nshear_rate = [0, 0]\n"), "effects.held_line.x");
-  expect_has(refusal(line + "x = [1, 2]\nshear_rate = [0]\n"), "held_line.shear_rate");
   EXPECT_FALSE(scene.effects.moving_surface);
   EXPECT_EQ(parse_flow_scene(smallest + "[effects.moving_surface]\ndegree = 12\n", "test")
                 .effects.moving_surface.value()
@@ -138,7 +130,7 @@ TEST(FlowScene, TakesOneOfFiveGeometries) {
 
 TEST(FlowScene, RefusesWhatMeansNothingInItsGeometry) {
   const std::string chute = scene_with("[chute]\nhalf_width_mm = 33\npressure_pa = 2400");
-  for (const std::string key : {"grains.count=3", "boundary.corner_taper=3", "output.slice_width=3"}) {
+  for (const std::string key : {"grains.count=3", "boundary.entrainment_length=3", "output.slice_width=3"}) {
     const std::string said = refusal(chute, {key});
     expect_has(said, key.substr(0, key.find_first_of(".=")));
     expect_has(said, "belongs to a drum");

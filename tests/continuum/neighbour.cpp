@@ -15,7 +15,7 @@ using namespace testing_boxes;
 FlowProblem drum_at(double rotation, double radius = 15) {
   const DrumGeometry drum{.radius = radius, .axis_offset = 1, .rotation = rotation, .nu = 0.82};
   return drum_problem(drum, LogLaw{0.35, 0.013}, {.surface_cell = 2, .surface_zone = 6, .levels = 2},
-                      {.corner_taper = 3}, {.shear_rate = 1e-3});
+                      {.entrainment_length = 1}, {.shear_rate = 1e-3});
 }
 
 TEST(Neighbour, AnotherSpeedIsFoundInAFewIterations) {

@@ -50,7 +50,7 @@ TEST(SmallDrum, AsMuchFlowsInAsOutThroughAnyCut) {
   FlowSolverOptions options;
   options.levels = 2;
   (void)converged(small_drum_problem(), options, observer);
-  // The worst cuts end in the corners, where the flow turns within the taper of 3 d: cells of 2 d
+  // The worst cuts end in the corners, where the flow turns within 3 d: cells of 2 d
   // leave 2.5e-3 there, and Q2-Q1 holds div u = 0 in the mean of its pressures alone, to
   // second order.
   ASSERT_EQ(imbalance.size(), 2u);

@@ -71,12 +71,12 @@ FlowProblem small_drum_with_surface(double cell) {
   const DrumGeometry drum = drumlin::small_drum();
   FlowProblem problem =
       drum_problem(drum, LogLaw{0.35, 0.013}, {.surface_cell = cell, .surface_zone = 6, .levels = 1},
-                   {.corner_taper = 3}, {.shear_rate = 1e-3});
+                   {.entrainment_length = 1}, {.shear_rate = 1e-3});
   problem.moving_surface = MovingSurface{.degree = 6,
                                          .tolerance = 0.03,
                                          .slope_half_length = 0.5 * drum.half_chord(),
                                          .wall_velocity = [drum](Vec2 point, Vec2 left, Vec2 right) {
-                                           return tapered_wall_velocity(drum, 3, point, left, right);
+                                           return entraining_wall_velocity(drum, 1, point, left, right);
                                          }};
   return problem;
 }

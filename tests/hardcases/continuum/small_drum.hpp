@@ -18,7 +18,7 @@ inline continuum::DrumGeometry small_drum() {
 inline continuum::FlowProblem small_drum_problem(const continuum::StressLaw& law, double eps = 1e-3,
                                                  const continuum::DrumGeometry& drum = small_drum()) {
   return continuum::drum_problem(drum, law, {.surface_cell = 2, .surface_zone = 6, .levels = 1},
-                                 {.corner_taper = 3}, {.shear_rate = eps});
+                                 {.entrainment_length = 1}, {.shear_rate = eps});
 }
 /// The same with the paper's law.
 inline continuum::FlowProblem small_drum_problem(const continuum::DrumGeometry& drum = small_drum()) {

@@ -15,7 +15,7 @@ from .fits import Scalar, pooled_speeds
 # Settings of a measurement that must be the same in all runs; the others are results (the angle of the frame, say).
 SETTINGS = ("slope_isoline_nu", "slope_half_width_asked", "surface_nu", "position", "slice_width_asked", "layer_thickness", "velocity_window",
             "surface_speed_depth", "linear_share", "decay_window_below_H", "bulk_margin", "mu_fit_I", "mu_fit_surface_margin", "mu_fit_wall_margin")
-FLOW_NUMERICS = ("surface_cell", "surface_zone", "levels", "regularisation_shear_rate", "regularisation_pressure", "corner_taper", "slice_width",
+FLOW_NUMERICS = ("surface_cell", "surface_zone", "levels", "regularisation_shear_rate", "regularisation_pressure", "entrainment_length", "slice_width",
                  "layer_thickness")
 # Keys that earlier programs did not know: a scene that names such a value says the same as one without the key.
 LATER_DEFAULTS = {"grains.generated.placement": "apart"}
