@@ -69,13 +69,18 @@ bool solve_cold(Newton& newton, const FlowSolverOptions& options, fem::SolvedLev
          (!level.problem.inertia || raise_inertia(newton, options, level));
 }
 
-// From a solution nearby: that of a coarser mesh ("refined"), of another problem ("neighbour"), or with the
-// surface in another place.
+Phase last_phase(const std::string& name, const FlowProblem& problem, const FlowSolverOptions& options) {
+  Phase phase{name, final_setting(problem), options.tolerance};
+  if (problem.inertia) phase.setting.inertia = fem::InertiaSetting{};
+  return phase;
+}
+
+// From a solution nearby: that of a coarser mesh ("refined") or of another problem ("neighbour").
 bool solve_from(const std::string& name, Newton& newton, const FlowSolverOptions& options,
-                fem::SolvedLevel& level, bool starts_nearby = false) {
+                fem::SolvedLevel& level) {
   const State before = level.state;
-  Phase phase{name, final_setting(level.problem), options.tolerance, starts_nearby};
-  if (level.problem.inertia) phase.setting.inertia = fem::InertiaSetting{};
+  Phase phase = last_phase(name, level.problem, options);
+  phase.starts_nearby = true;
   if (run(newton, phase, level)) return true;
   if (newton.was_interrupted() || !(phase.setting.regularisation.shear_rate < options.careful_shear_rate))
     return false;
@@ -179,8 +184,7 @@ class Continuation {
     level_->state.held = nullptr;
     if (problem_.memory && start != nullptr && solve_remembering(newton, start, here))
       return !problem_.moving_surface || move_surface(mesh, whole, here);
-    if (!(start == nullptr ? solve_cold(newton, here, *level_)
-                           : solve_from(start, newton, here, *level_, /*starts_nearby=*/true)))
+    if (!(start == nullptr ? solve_cold(newton, here, *level_) : solve_from(start, newton, here, *level_)))
       return false;
     if (fem::holds_fields(problem_)) {
       if (observer_.solved_plain && is_last(mesh) && !problem_.memory)
@@ -199,8 +203,7 @@ class Continuation {
     try {
       level_->state.held =
           fem::held_from(problem_, discretisation(), before, {.linear_tolerance = here.linear_tolerance});
-      if (solve_from(start, newton, here, *level_, /*starts_nearby=*/true) &&
-          solve_held_fields(newton, here, *level_, report_))
+      if (solve_from(start, newton, here, *level_) && solve_held_fields(newton, here, *level_, report_))
         return true;
     } catch (const NotConvergedError& error) {
       report_.failure = error.what();
@@ -224,7 +227,8 @@ class Continuation {
             [&](Newton& again, fem::Settling settling) {
               FlowSolverOptions how = settling == fem::Settling::loose ? loose : here;
               if (settling == fem::Settling::fine) how.picard_tolerance *= options_.fine_picard_share;
-              return solve_from("surface", again, how, *level_) &&
+              // A surface that has gone too far goes half as far: a larger eps would hardly ever help.
+              return run(again, last_phase("surface", problem_, how), *level_) &&
                      (!fem::holds_fields(problem_) || solve_held_fields(again, how, *level_, report_));
             },
         .first = loosely ? fem::Settling::whole : fem::Settling::loose,

@@ -14,9 +14,9 @@
 namespace drumlin::continuum::fem {
 namespace {
 
-// Over the norm of the weight. Steps that lead to a solution reach a few times the weight; beyond this they
-// only waste the iterations that are left.
-constexpr double hopeless_residual = 1e5;
+// A residual above the weight and so many times as large as the least so far: of some 2000 sequences that led
+// to a solution none went on from there, of those that led nowhere half of the steps came after it.
+constexpr double hopeless_growth = 10;
 
 // True relative residual of a solve that asks for no refinement: below every tolerance on the flow.
 constexpr double enough = 1e-9;
@@ -228,6 +228,7 @@ bool Newton::iterate(const Phase& phase, State& state) {
   });
   if (settles_first) settle_locally(phase, state);
   int short_steps = 0;
+  double least = INFINITY;
   for (line.iteration = 1; line.iteration <= options_.max_iterations; ++line.iteration) {
     if (was_interrupted()) {
       report_.failure = "interrupted";
@@ -241,7 +242,8 @@ bool Newton::iterate(const Phase& phase, State& state) {
       return false;
     }
     record(line);
-    if (!(line.residual < hopeless_residual)) break;
+    least = std::min(least, line.residual);
+    if (!(line.residual <= std::max(1.0, hopeless_growth * least))) break;
     if (line.residual <= phase.tolerance) return true;
     short_steps = line.step_length < short_step ? short_steps + 1 : 0;
     if (has_settled_locally_ && short_steps == most_short_steps) break;
