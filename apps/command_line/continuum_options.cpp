@@ -76,6 +76,11 @@ void add_compare_options(CLI::App& command, CompareOptions& options, CompareStud
                   "noise floor that stands beside every error")
       ->type_name("RUN2");
   command
+      .add_option("--beside", options.beside,
+                  "Another flow of the drum, with another law, say: how many targets it meets, and its error "
+                  "beside each")
+      ->type_name("FLOWRUN2");
+  command
       .add_option(
           "--register", options.registration,
           "What lies at the same place: at the same height below the drum's axis (in layers: above the "

@@ -22,16 +22,17 @@ namespace fs = std::filesystem;
 
 ComparedRuns read_runs(const CompareOptions& options) {
   const Unsteady unsteady = options.accept_unsteady ? Unsteady::accept : Unsteady::refuse;
-  ComparedRuns runs{load_side(options.run, unsteady), load_side(options.flow_run, unsteady), std::nullopt};
+  ComparedRuns runs{load_side(options.run, unsteady), load_side(options.flow_run, unsteady), {}, {}};
   const auto require_same = [&](const LoadedSide& second) {
     coupling::require_same_geometry(runs.first.compared.profiles, second.compared.profiles);
     require_same_scales(runs.first, second);
   };
   require_same(runs.second);
-  if (options.floor) {
-    runs.floor = load_side(*options.floor, unsteady);
-    require_same(*runs.floor);
-  }
+  const auto load_another = [&](const std::optional<fs::path>& folder, std::optional<LoadedSide>& side) {
+    if (folder) require_same(side.emplace(load_side(*folder, unsteady)));
+  };
+  load_another(options.floor, runs.floor);
+  load_another(options.beside, runs.beside);
   return runs;
 }
 
@@ -39,17 +40,26 @@ ComparedRuns read_runs(const CompareOptions& options) {
 
 int compare(const CompareOptions& options) {
   const fs::path finished = options.output / "comparison.json";
-  const std::string asked = asked_sum({measured_run_sum(options.run), measured_run_sum(options.flow_run),
-                                       options.floor ? measured_run_sum(*options.floor) : "",
-                                       options.registration, options.accept_unsteady});
+  const auto sum_of = [](const std::optional<fs::path>& folder) {
+    return folder ? measured_run_sum(*folder) : "";
+  };
+  const std::string asked =
+      asked_sum({measured_run_sum(options.run), measured_run_sum(options.flow_run), sum_of(options.floor),
+                 sum_of(options.beside), options.registration, options.accept_unsteady});
   if (options.existing == ExistingOutput::resume && is_complete(finished))
     return done_already(options.output, asked);
   const ComparedRuns runs = read_runs(options);
   const bool drums = coupling::geometry_of(runs.first.compared.profiles) == Geometry::drum;
+  if (options.beside && !drums)
+    throw InputError({InputProblem{.file = "",
+                                   .key = "--beside",
+                                   .what = "a flow in layers has no targets",
+                                   .allowed = "absent, or runs of a drum"}});
   const ComparisonReport report = drums ? drum_report(runs, options) : layer_report(runs, options);
 
   std::vector<fs::path> read{options.run, options.flow_run};
-  if (options.floor) read.push_back(*options.floor);
+  for (const auto& another : {options.floor, options.beside})
+    if (another) read.push_back(*another);
   StagedOutput output({options.output, options.existing, "compare", read, {}, asked});
   const fs::path& folder = output.folder();
   report.write_overlays(folder);

@@ -37,6 +37,14 @@ Json content_of(const ComparedRuns& runs, const coupling::Comparison& comparison
   return content;
 }
 
+// The other flow's errors beside those of the second side, judged as they are.
+void add_beside(Json& content, const LoadedSide& beside, const std::vector<coupling::Target>& targets) {
+  content["beside"] = {{"name", beside.name}, {"kind", beside.kind}, {"verdict", counts_of(targets)}};
+  for (std::size_t i = 0; i < targets.size(); ++i)
+    content["targets"][i]["beside"] = {{"value", number_or_null(targets[i].value)},
+                                       {"outcome", name_of(targets[i].outcome)}};
+}
+
 /// The scripts read comparison.json and the overlays.
 std::vector<FigureScript> figures_of(const ComparedRuns& runs, const fs::path& output, const fs::path& json) {
   std::vector<std::string> words{json.string(), output.string()};
@@ -72,6 +80,10 @@ std::string target_summary(const Json& content) {
                           target["judged_by"].get<std::string>(),
                           short_number(target.value("noise_floor", target["limit"])),
                           target["measure"].get<std::string>(), target.value("remark", std::string()));
+  if (content.contains("beside"))
+    text += fmt::format("  beside it, {}: {} met, {} missed\n", content["beside"]["name"].get<std::string>(),
+                        content["beside"]["verdict"]["met"].get<int>(),
+                        content["beside"]["verdict"]["missed"].get<int>());
   return text + unsteady_text(content);
 }
 
@@ -91,6 +103,11 @@ ComparisonReport drum_report(const ComparedRuns& runs, const CompareOptions& opt
       "",
       {},
       {}};
+  if (runs.beside) {
+    coupling::Comparison beside = compare(runs.first.compared, runs.beside->compared, how);
+    if (floor) judge_by_floor(beside.targets, floor->targets);
+    add_beside(*report.content, *runs.beside, beside.targets);
+  }
   report.summary = target_summary(*report.content);
   report.write_overlays = [&runs, comparison](const fs::path& folder) {
     write_overlays(folder, runs.first.compared, runs.second.compared, comparison);

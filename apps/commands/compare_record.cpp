@@ -80,7 +80,8 @@ void add_origins(Json& content, const ComparedRuns& runs) {
   content["provenance"] = to_json(provenance());
   std::vector<std::string> edits = runs.first.accepted;
   edits.insert(edits.end(), runs.second.accepted.begin(), runs.second.accepted.end());
-  if (runs.floor) edits.insert(edits.end(), runs.floor->accepted.begin(), runs.floor->accepted.end());
+  for (const auto* another : {&runs.floor, &runs.beside})
+    if (*another) edits.insert(edits.end(), (*another)->accepted.begin(), (*another)->accepted.end());
   add_accepted_edits(content["provenance"], edits);
 }
 

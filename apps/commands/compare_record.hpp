@@ -14,10 +14,10 @@
 
 namespace drumlin::apps {
 
-/// Both sides, and the run that tells the noise floor.
+/// Both sides, the run that tells the noise floor, and another flow to be judged beside the second.
 struct ComparedRuns {
   LoadedSide first, second;
-  std::optional<LoadedSide> floor;
+  std::optional<LoadedSide> floor, beside;
 };
 
 /// A report before any of it is written.
@@ -41,7 +41,7 @@ ComparisonReport layer_report(const ComparedRuns& runs, const CompareOptions& op
 std::string title_of(const ComparedRuns& runs);
 /// Keys costs and cost_ratio.
 void add_costs(nlohmann::ordered_json& content, const ComparedRuns& runs);
-/// Keys particles, continuum, floor and provenance.
+/// Keys particles, continuum, floor, beside where there is one, and provenance.
 void add_origins(nlohmann::ordered_json& content, const ComparedRuns& runs);
 /// A line for each reason why a side is not steady.
 std::string unsteady_text(const nlohmann::ordered_json& content);

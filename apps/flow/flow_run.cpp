@@ -91,6 +91,11 @@ FlowRequest read_request(const FlowOptions& options) {
   FlowRequest asked{.scene = continuum::read_flow_scene(options.scene, options.overrides),
                     .law = read_rheology(options.rheology),
                     .flow_case = {}};
+  if (options.law_draws > 0 && asked.scene.effects.memory)
+    throw InputError({InputProblem{.file = options.scene.string(),
+                                   .key = "effects.memory",
+                                   .what = "has no draws of its law's points, which --law-draws asks for",
+                                   .allowed = "absent, or no --law-draws"}});
   asked.flow_case = case_of(options.scene, asked.scene, asked.law);
   if (options.from) {
     const ResultFolder from = open_flow_run(*options.from);
@@ -279,7 +284,7 @@ FinishedFlow finished_flow(const FlowOptions& options, const FlowRequest& asked,
   if (scene.solver.sensitivity && !scene.time)
     flow.sensitivities = continuum::sensitivities_of(asked.flow_case, flow.solution, flow.meshes,
                                                      continuum::solver_options(scene));
-  if (options.law_draws > 0 && !asked.law.draws.empty() && !scene.time && !scene.effects.memory)
+  if (options.law_draws > 0 && !asked.law.draws.empty() && !scene.time)
     flow.law_band = continuum::law_band_of(asked.flow_case, flow.solution, asked.law, options.law_draws,
                                            scene.output.map_spacing, continuum::solver_options(scene));
   flow.findings = continuum::findings_of(asked.flow_case, flow.solution.field, solved.finer.checks);

@@ -149,8 +149,9 @@ struct CompareOptions {
   std::filesystem::path run;       ///< RUN or FLOWRUN
   std::filesystem::path flow_run;  ///< FLOWRUN or RUN
   std::filesystem::path output;
-  std::optional<std::filesystem::path> floor;  ///< another RUN of the first one's drum: the noise floor
-  std::string registration = "axis";           ///< or "surface"
+  std::optional<std::filesystem::path> floor;   ///< another RUN of the first one's drum: the noise floor
+  std::optional<std::filesystem::path> beside;  ///< another FLOWRUN of the drum, judged beside the second
+  std::string registration = "axis";            ///< or "surface"
   bool accept_unsteady = false;
   ExistingOutput existing = ExistingOutput::refuse;
 };
