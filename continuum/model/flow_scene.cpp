@@ -220,6 +220,7 @@ void refuse_keys_of_the_drum(const Document& document, const FlowScene& scene,
 FlowScene scene_of(const Document& document) {
   std::vector<InputProblem> problems;
   FlowScene scene = read_keys<FlowScene>(document, problems);
+  scene.title = title_with_changes(scene.title, document, {"output", "reduced", "solver.sensitivity"});
   if (problems.empty()) {
     if (scene.grains.diameter_max_mm < scene.grains.diameter_min_mm)
       problems.push_back(problem_at(document, "grains.diameter_max_mm", "is smaller than diameter_min_mm",

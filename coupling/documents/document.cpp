@@ -27,10 +27,12 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cstddef>
 
 #include "coupling/common/files/input_file.hpp"
 #include "coupling/documents/number_text.hpp"
 #include "coupling/documents/toml_depth.hpp"
+#include "coupling/documents/toml_text.hpp"
 
 namespace drumlin {
 
@@ -38,6 +40,7 @@ namespace {
 
 constexpr std::size_t largest_toml = 1 << 20;  // bytes; a scene of 10 kB is a long one
 constexpr std::size_t longest_key = 200;       // bytes of one part of a key
+constexpr std::size_t longest_title = 200;     // characters that title_line() allows
 
 /// An InputError with one problem.
 InputError fault(const std::string& file, int line, int column, const std::string& key,
@@ -184,7 +187,8 @@ Node& entry_of(Node& node, const std::string& step, const std::string& path) {
   return table->back().node;
 }
 
-void apply_override(Node& root, const std::string& text) {
+/// "path.to.key = value", as it stands in the tree now.
+std::string apply_override(Node& root, const std::string& text) {
   const auto equals = text.find('=');
   const std::string path = text.substr(0, equals);
   if (equals == std::string::npos || path.empty())
@@ -200,7 +204,10 @@ void apply_override(Node& root, const std::string& text) {
     from = dot + 1;
   }
   *node = override_value(text.substr(equals + 1), path);
+  return path + " = " + toml_value(*node);
 }
+
+std::string key_of_change(const std::string& change) { return change.substr(0, change.find(" = ")); }
 
 }  // namespace
 
@@ -224,12 +231,41 @@ Document parse_toml(const std::string& text, const std::string& name,
     throw fault(name, line, 0, "", "keys, arrays or tables lie too deep in each other",
                 fmt::format("at most {} levels", deepest_level));
   Document document{name, parsed(text, name)};
-  for (const auto& change : overrides) apply_override(document.root, change);
+  for (const auto& change : overrides) {
+    const std::string before = toml_text(document.root), made = apply_override(document.root, change);
+    if (toml_text(document.root) == before) continue;
+    std::erase_if(document.changes,
+                  [&](const std::string& earlier) { return key_of_change(earlier) == key_of_change(made); });
+    document.changes.push_back(made);
+  }
   return document;
 }
 
 Document read_toml(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   return parse_toml(input_text(file, largest_toml), file.string(), overrides);
+}
+
+std::string title_with_changes(const std::string& title, const Document& document,
+                               const std::vector<std::string>& silent) {
+  std::vector<std::string> told;
+  for (const std::string& change : document.changes) {
+    const std::string key = key_of_change(change);
+    if (key == "title") return title;
+    if (std::none_of(silent.begin(), silent.end(),
+                     [&](const std::string& part) { return (key + ".").starts_with(part + "."); }))
+      told.push_back(change);
+  }
+  if (title.empty() || told.empty()) return title;
+  for (std::size_t named = told.size();; --named) {
+    const std::size_t left = told.size() - named;
+    std::string list =
+        fmt::format("{}", fmt::join(told.begin(), told.end() - static_cast<std::ptrdiff_t>(left), ", "));
+    if (left > 0)
+      list += named > 0 ? fmt::format(" and {} more", left) : fmt::format("keys changed: {}", left);
+    const std::string whole = title + " [" + list + "]";
+    if (whole.size() <= longest_title) return whole;
+    if (named == 0) return title;
+  }
 }
 
 }  // namespace drumlin

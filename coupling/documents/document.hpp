@@ -35,6 +35,7 @@ struct Node::Entry {
 struct Document {
   std::string file;
   Node root;
+  std::vector<std::string> changes = {};  ///< "key = value" of each override that changed something
 };
 
 /// Reads a TOML file of at most 1 MiB without NUL bytes, keys of at most 200 bytes and nothing deeper than 32
@@ -45,5 +46,11 @@ Document read_toml(const std::filesystem::path& file, const std::vector<std::str
 /// The same from a text; `name` stands for the file in messages.
 Document parse_toml(const std::string& text, const std::string& name,
                     const std::vector<std::string>& overrides = {});
+
+/// The title of a file with what was changed in it, "Drum, 15 rpm [drum.rotation_rpm = 12]": so that it says
+/// nothing that the changes made untrue. Changes at and below the keys `silent` are left out, and all of them
+/// where the title is empty or is itself an override.
+std::string title_with_changes(const std::string& title, const Document& document,
+                               const std::vector<std::string>& silent);
 
 }  // namespace drumlin

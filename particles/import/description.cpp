@@ -93,6 +93,7 @@ ImportDescription read_import_description(const fs::path& file, const std::vecto
   if (problems.empty()) check_together(description, document, problems);
   sort_by_place(problems);
   if (!problems.empty()) throw InputError(problems);
+  description.title = title_with_changes(description.title, document, {"reduced"});
   return description;
 }
 

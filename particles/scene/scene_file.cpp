@@ -55,6 +55,9 @@ Scene scene_of(const Document& document) {
   if (document.root.find("format") && !problems.empty() && problems.front().key == "format")
     throw InputError(problems);
   resolve_paths(scene, document.file);
+  scene.title =
+      title_with_changes(scene.title, document,
+                         {"output", "reduced", "solver.capture_unconverged", "solver.stop_when_unconverged"});
   const std::vector<InputProblem> key_problems = problems;
   for (const auto& fault : validate(scene))
     if (!rests_on_a_problem(fault, key_problems))

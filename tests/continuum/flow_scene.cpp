@@ -43,6 +43,12 @@ TEST(FlowScene, ReadsBackWhatItWrites) {
   EXPECT_EQ(scene.regularisation.pressure, 0.125);
 }
 
+TEST(FlowScene, TellsInItsTitleWhatWasChanged) {
+  const std::string text = "title = \"Drum, 15 rpm\"\n" + smallest;
+  EXPECT_EQ(parse_flow_scene(text, "test", {"drum.rotation_rpm=12", "solver.sensitivity=true"}).title,
+            "Drum, 15 rpm [drum.rotation_rpm = 12]");
+}
+
 TEST(FlowScene, HasTheEffectsThatItNames) {
   EXPECT_FALSE(parse_flow_scene(smallest, "test").effects.inertia);
   const FlowScene scene =

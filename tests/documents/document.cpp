@@ -167,6 +167,27 @@ TEST(Overrides, MayAddAnEmptyTable) {
   EXPECT_TRUE(std::holds_alternative<Node::Table>(document.root.find("effects")->find("spin")->value));
 }
 
+TEST(Overrides, AreToldBehindTheTitle) {
+  const auto title = [](const std::vector<std::string>& overrides) {
+    return title_with_changes(
+        "Drum, 15 rpm",
+        parse_toml("speed = 15\nseed = 1\n[output]\na = 1\n[tables.t]\n", "t.toml", overrides),
+        {"output", "reduced"});
+  };
+  EXPECT_EQ(title({}), "Drum, 15 rpm");
+  EXPECT_EQ(title({"speed=12"}), "Drum, 15 rpm [speed = 12]");
+  EXPECT_EQ(title({"speed=15", "tables.t={}"}), "Drum, 15 rpm") << "what the file says already";
+  EXPECT_EQ(title({"output.a=2", "output.b.c=nncg", "reduced=true"}), "Drum, 15 rpm");
+  EXPECT_EQ(title({"speed=12", "title=Other"}), "Drum, 15 rpm") << "a title of the user's own";
+  EXPECT_EQ(title({"speed=12", "tables.u={}", "speed=10", "outputs=nncg"}),
+            "Drum, 15 rpm [tables.u = {}, speed = 10, outputs = \"nncg\"]");
+  const std::string part = "word=" + std::string(80, 'x'), whole = "word=" + std::string(190, 'x');
+  EXPECT_EQ(title({part, "seed=2", "other_" + part, "speed=3"}),
+            "Drum, 15 rpm [word = \"" + std::string(80, 'x') + "\", seed = 2 and 2 more]");
+  EXPECT_EQ(title({whole}), "Drum, 15 rpm [keys changed: 1]");
+  EXPECT_EQ(title_with_changes("", parse_toml("a = 1\n", "t.toml", {"a=2"}), {}), "");
+}
+
 TEST(Overrides, AreRefusedWithTheirKey) {
   const std::string text = "a = 1\n[[t]]\nb = 2\n";
   for (const char* wrong : {"a", "=1", "a..b=1", "a=", "a=1\nb=2", "a=[1,", "t.1.b=1", "t.x.b=1", "t.-1.b=1",

@@ -105,7 +105,11 @@ TEST(SceneFile, RefusesAnotherVersion) {
 }
 
 TEST(SceneFile, OverridesCountAsTheFile) {
-  EXPECT_EQ(parse_scene(example_scene, "s.toml", {"solver.max_sweeps=50"}).solver.max_sweeps, 50);
+  const Scene read =
+      parse_scene(example_scene, "s.toml", {"solver.max_sweeps=50", "output.log_every_steps=7"});
+  EXPECT_EQ(read.solver.max_sweeps, 50);
+  const std::string title = parse_scene(example_scene, "s.toml").title;
+  EXPECT_EQ(read.title, title + " [solver.max_sweeps = 50]");
   EXPECT_EQ(
       testing::only_scene_problem(example_scene, {"solver.max_sweep=50"}),
       "override: solver.max_sweep: is unknown; did you mean \"max_sweeps\"? (allowed: capture_unconverged, "
