@@ -235,10 +235,10 @@ std::string text_of(const Json& statement, const ScalarSet& measured) {
                   "{:>11} "
                   "{:>11} {:>22} {:>22}  largest\n",
                   statement["record"].get<std::string>(), "", "value", "averaging", "solver", "step")
-            : "accuracy: what solver tolerance and time step leave is not known for this scene (drumlin cost "
-              "SCENE --statistics SECONDS -o COST, then --accuracy COST)\n";
+            : "accuracy: for the errors by solver tolerance and time step, drumlin cost SCENE --statistics "
+              "SECONDS -o COST, then --accuracy COST\n";
   const auto said = [](const Json& e) {
-    return e.is_null() ? "not known"
+    return e.is_null() ? "-"
                        : fmt::format("{:+.2g} +- {:.2g}{}", e.at("error").get<double>(),
                                      e.at("ci99").get<double>(), e.at("significant").get<bool>() ? " *" : "");
   };

@@ -123,24 +123,29 @@ std::string law_band_text(const FinishedFlow& flow) {
 
 std::string accuracy_text(const FinishedFlow& flow) {
   if (flow.accuracy.scalars.empty()) return "";
-  std::string text = "accuracy: estimated distance to the exact solution of the equations\n";
+  std::string text;
   std::vector<std::string> dominant;
   for (const continuum::ScalarAccuracy& a : flow.accuracy.scalars) {
-    text += fmt::format("  {:<12} {:>11.5g} {:>12} ", a.name, a.value,
-                        a.error() ? fmt::format("+- {:.2g}", *a.error()) : "not known");
+    std::string told;
     for (const continuum::ErrorPart& part : a.parts)
-      text +=
-          fmt::format(" {} {}", part.source, part.error ? fmt::format("{:.2g}", *part.error) : "not known");
+      if (part.error) told += fmt::format(" {} {:.2g}", part.source, *part.error);
+    if (told.empty()) continue;
+    text += fmt::format("  {:<12} {:>11.5g} {:>12} {}", a.name, a.value,
+                        a.error() ? fmt::format("+- {:.2g}", *a.error()) : "", told);
     if (a.by_p_min) text += fmt::format("; model: {:.2g} by 20 % of p_min", *a.by_p_min);
     if (a.by_law) text += fmt::format("{} {:.2g} by the law", a.by_p_min ? "," : "; model:", *a.by_law);
     text += "\n";
     if (!a.dominant().empty() && std::find(dominant.begin(), dominant.end(), a.dominant()) == dominant.end())
       dominant.push_back(a.dominant());
   }
+  text = (text.empty() ? "accuracy: no error was estimated\n"
+                       : "accuracy: estimated distance to the exact solution of the equations\n") +
+         text;
   if (flow.sensitivities.empty())
     text +=
-        "  (--set solver.sensitivity=true tells what is not known, --law-draws 8 what the law's points leave "
-        "open: together about 1.5 times the time of the flow more)\n";
+        "  (--set solver.sensitivity=true adds the errors by eps and iteration, --law-draws 8 the interval "
+        "by "
+        "the law's points: together about 1.5 times the time of the flow more)\n";
   for (const continuum::Halving& h : flow.accuracy.halvings)
     if (std::find(dominant.begin(), dominant.end(), h.source) != dominant.end())
       text += fmt::format(

@@ -99,6 +99,9 @@ def check_statement(drumlin, work, here, data):
                       "--set", "mesh.levels=2")
     accuracy = read_json(work / "flow" / "flow.json")["accuracy"]
     require("accuracy: " in said and "half of the error by mesh" in said, f"no statement:\n{said}")
+    said, _ = drumlin("flow", here / "tiny-drum-flow.toml", "--rheology", data / "rheology" / "paper.toml", "-o", work / "flow-alone",
+                      "--set", "mesh.levels=1", "--set", "solver.sensitivity=false")
+    require("accuracy: no error was estimated\n  (--set solver.sensitivity=true" in said and "not known" not in said, f"rows without a value:\n{said}")
     for name, scalar in accuracy["scalars"].items():
         parts = [scalar[source] for source in ("mesh", "eps", "iteration")]
         require(None not in parts and abs(sum(parts) - scalar["error"]) <= 1e-12 * max(parts), f"{name}: {scalar}")
