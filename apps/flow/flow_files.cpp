@@ -73,7 +73,7 @@ void write_iterations(const fs::path& file, const continuum::FlowReport& report)
 void write_flow(const fs::path& folder, const FinishedFlow& flow) {
   const ProfileSet profiles = profiles_with_header(flow);
   const FieldMap maps = maps_with_header(flow, profiles);
-  flow.solution.field.write_vtu(folder / "flow.vtu");
+  flow.solution.field.write_vtu(folder / "flow.vtu", scales_of(flow.asked.scene));
   const Json content = flow_json(flow);
   const continuum::FlowState state = flow.solution.field.state();
   if (!flow.solution.field.on_first_rank()) return;

@@ -10,6 +10,7 @@
 #include "continuum/fem/flow_state.hpp"
 #include "continuum/model/surface_shape.hpp"
 #include "coupling/common/no_value.hpp"
+#include "coupling/common/scales.hpp"
 
 namespace drumlin::continuum {
 
@@ -76,10 +77,10 @@ class FlowField {
   /// Torques are taken about `centre`.
   /// `law_I_max`: the largest I that the law was measured at.
   FlowIntegrals integrals(Vec2 centre = {}, double law_I_max = std::numeric_limits<double>::infinity()) const;
-  /// Velocity (laboratory frame), pressure, stresses, |D|, I, mu, viscosity, well_posedness_margin, each cell
-  /// cut in four. On several ranks `file` (.vtu) is replaced by one with the ending .pvtu, which names one
-  /// .vtu per rank. Throws IoError.
-  void write_vtu(const std::filesystem::path& file) const;
+  /// Velocity, pressure, stresses and what the law says, in SI, x to the right and y upwards from the axis of
+  /// a drum, as the grains' files for ParaView; each cell cut in four. On several ranks `file` (.vtu) is
+  /// replaced by one with the ending .pvtu, which names one .vtu per rank. Throws IoError.
+  void write_vtu(const std::filesystem::path& file, const Scales& scales) const;
 
  private:
   std::shared_ptr<const fem::SolvedLevel> level_;

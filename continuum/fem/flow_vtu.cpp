@@ -3,11 +3,13 @@
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/data_postprocessor.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <variant>
 
 #include "continuum/fem/detail/point_law.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
@@ -17,30 +19,58 @@
 namespace drumlin::continuum {
 namespace {
 
-// Stresses and numbers of the law at the vertices of each cell.
-class LawOutput : public dealii::DataPostprocessor<2> {
+/// From the axes and units of the flow to the laboratory in SI: x to the right, y upwards, in a drum from its
+/// axis.
+struct Laboratory {
+  Laboratory(const fem::SolvedLevel& level, double theta, const Scales& of)
+      : scales(of), cosine(std::cos(theta)), sine(std::sin(theta)) {
+    if (const auto* drum = std::get_if<ChordDomain>(&level.problem.domain)) origin_z = drum->axis_offset;
+  }
+  dealii::Point<2> place(const dealii::Point<2>& p) const {
+    const double x = scales.length_m * p[0], z = scales.length_m * (p[1] - origin_z);
+    return {cosine * x + sine * z, cosine * z - sine * x};
+  }
+  PlaneTensor turned(const PlaneTensor& t) const {
+    const double cc = cosine * cosine, cs = cosine * sine, ss = sine * sine;
+    return {cc * t.xx + 2 * cs * t.xz + ss * t.zz, ss * t.xx - 2 * cs * t.xz + cc * t.zz,
+            cs * (t.zz - t.xx) + (cc - ss) * t.xz};
+  }
+  Scales scales;
+  double cosine, sine, origin_z = 0;
+};
+
+// Velocity, stresses and numbers of the law at the vertices of each cell, in the laboratory.
+class LaboratoryValues : public dealii::DataPostprocessor<2> {
  public:
-  explicit LawOutput(const fem::SolvedLevel& level) : level_(level) {}
+  LaboratoryValues(const fem::SolvedLevel& level, const Laboratory& laboratory)
+      : level_(level), laboratory_(laboratory) {}
 
   std::vector<std::string> get_names() const override {
-    return {"pressure",
-            "sigma_xx",
-            "sigma_zz",
-            "sigma_xz",
-            "D_magnitude",
-            "I",
-            "mu",
-            "viscosity",
-            "well_posedness_margin",
-            "k",
-            "axis_angle_deg",
-            "beta",
-            "fluidity_factor"};
+    std::vector<std::string> names{"velocity_m_s",
+                                   "velocity_m_s",
+                                   "pressure_Pa",
+                                   "sigma_xx_Pa",
+                                   "sigma_zz_Pa",
+                                   "sigma_xz_Pa",
+                                   "D_magnitude_1_s",
+                                   "I",
+                                   "mu",
+                                   "viscosity_Pa_s",
+                                   "well_posedness_margin",
+                                   "k",
+                                   "axis_angle_deg",
+                                   "beta",
+                                   "fluidity_factor",
+                                   "fluidity_1_s"};
+    if (!level_.discretisation->has_fluidity()) names.pop_back();
+    return names;
   }
   std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>
   get_data_component_interpretation() const override {
-    return std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>(
-        get_names().size(), dealii::DataComponentInterpretation::component_is_scalar);
+    using namespace dealii::DataComponentInterpretation;
+    std::vector<DataComponentInterpretation> kinds(get_names().size(), component_is_scalar);
+    kinds[0] = kinds[1] = component_is_part_of_vector;
+    return kinds;
   }
   dealii::UpdateFlags get_needed_update_flags() const override {
     return dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points;
@@ -49,28 +79,34 @@ class LawOutput : public dealii::DataPostprocessor<2> {
   void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<2>& input,
                              std::vector<dealii::Vector<double>>& output) const override {
     const fem::HeldValues held = held_at(input);
+    const double speed = laboratory_.scales.velocity_m_s(), pascal = laboratory_.scales.stress_Pa(),
+                 second = laboratory_.scales.time_s;
+    const bool has_fluidity = level_.discretisation->has_fluidity();
     for (std::size_t q = 0; q < output.size(); ++q) {
+      const auto& u = input.solution_values[q];
       const auto& g = input.solution_gradients[q];
       const PlaneTensor D{g[0][0], g[1][1], 0.5 * (g[0][1] + g[1][0])};
-      const double p = input.solution_values[q][2], rate = magnitude(D);
-      const double y =
-          level_.discretisation->has_fluidity() ? input.solution_values[q][fem::fluidity_component] : 0;
+      const double p = u[2], rate = magnitude(D), y = has_fluidity ? u[fem::fluidity_component] : 0;
       const auto s =
           fem::point_report(level_.problem, level_.setting, {.D = D, .p = p, .ln_fluidity = y}, held, q);
-      const std::array<double, 13> values = {p,
-                                             p - s.stress.xx,
-                                             p - s.stress.zz,
-                                             s.stress.xz,
-                                             rate,
+      const PlaneTensor stress = laboratory_.turned(s.stress);
+      const std::array<double, 16> values = {speed * (laboratory_.cosine * u[0] + laboratory_.sine * u[1]),
+                                             speed * (laboratory_.cosine * u[1] - laboratory_.sine * u[0]),
+                                             pascal * p,
+                                             pascal * (p - stress.xx),
+                                             pascal * (p - stress.zz),
+                                             pascal * stress.xz,
+                                             rate / second,
                                              2 * rate / std::sqrt(s.normal),
                                              s.along / s.normal,
-                                             s.viscosity,
+                                             s.viscosity * pascal * second,
                                              s.margin,
                                              s.ratio,
                                              s.angle * 180 / std::numbers::pi,
                                              s.beta,
-                                             s.fluidity};
-      std::copy(values.begin(), values.end(), output[q].begin());
+                                             s.fluidity,
+                                             std::exp(y) / second};
+      std::copy_n(values.begin(), output[q].size(), output[q].begin());
     }
   }
 
@@ -85,26 +121,37 @@ class LawOutput : public dealii::DataPostprocessor<2> {
     return fem::held_at(*level_.state.held, d, cell, unit_points);
   }
   const fem::SolvedLevel& level_;
+  const Laboratory& laboratory_;
+};
+
+/// The cells of a flow, which are moved as a whole once their values are computed.
+class LaboratoryCells : public dealii::DataOut<2> {
+ public:
+  void move(const Laboratory& to) {
+    for (auto& patch : patches) {
+      for (auto& vertex : patch.vertices) vertex = to.place(vertex);
+      // Curved cells hold their points below their values.
+      if (!patch.points_are_available) continue;
+      const unsigned int x = patch.data.n_rows() - 2;
+      for (unsigned int q = 0; q < patch.data.n_cols(); ++q) {
+        const dealii::Point<2> moved = to.place({patch.data(x, q), patch.data(x + 1, q)});
+        patch.data(x, q) = static_cast<float>(moved[0]);
+        patch.data(x + 1, q) = static_cast<float>(moved[1]);
+      }
+    }
+  }
 };
 
 }  // namespace
 
-void FlowField::write_vtu(const std::filesystem::path& file) const {
-  using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
-  const LawOutput law(*level_);
-  dealii::DataOut<2> output;
+void FlowField::write_vtu(const std::filesystem::path& file, const Scales& scales) const {
+  const Laboratory laboratory(*level_, theta(), scales);
+  const LaboratoryValues values(*level_, laboratory);
+  LaboratoryCells output;
   output.attach_dof_handler(level_->discretisation->unknowns);
-  std::vector<std::string> names{"velocity", "velocity", "p"};
-  std::vector<Interpretation> kinds{Interpretation::component_is_part_of_vector,
-                                    Interpretation::component_is_part_of_vector,
-                                    Interpretation::component_is_scalar};
-  if (has_fluidity()) {
-    names.emplace_back("ln_fluidity");
-    kinds.push_back(Interpretation::component_is_scalar);
-  }
-  output.add_data_vector(level_->state.solution, names, dealii::DataOut<2>::type_dof_data, kinds);
-  output.add_data_vector(level_->state.solution, law);
+  output.add_data_vector(level_->state.solution, values);
   output.build_patches(level_->discretisation->mapping, 2);
+  output.move(laboratory);
   dealii::DataOutBase::VtkFlags flags;
   flags.print_date_and_time = false;  // the same flow gives the same bytes
   output.set_flags(flags);

@@ -4,13 +4,10 @@ usage: looking.py DRUMLIN FOLDER_OF_THIS_TEST [--short]
 --short: leaves out figures of other walls and of chosen moments.
 """
 
-import base64
 import json
 import math
-import struct
 import sys
 import xml.etree.ElementTree
-import zlib
 
 import h5py
 import matplotlib.image
@@ -18,6 +15,7 @@ import numpy
 
 from command import given, read_json, require
 from player_file import Player
+from vtu_file import arrays_of
 
 GRAINS = """
 [grains]
@@ -287,39 +285,6 @@ def stretches(drumlin, folder):
             require(math.isclose(found["error_at_most"], factor * (abs(found["change"]) + found["ci99"]), rel_tol=1e-12), f"{name}: {found}")
     for name in ["log.csv", *(f"snapshots/{n:06}.h5" for n in range(1, 6))]:
         require((folder / "told" / name).read_bytes() == (folder / "periodic" / name).read_bytes(), f"{name} differs")
-
-
-def arrays_of(file):
-    """Every array of a .vtu file by its name, decoded as VTK does; sizes as the file itself says."""
-    root = xml.etree.ElementTree.parse(file).getroot()
-    require(root.get("type") == "UnstructuredGrid" and root.get("compressor") == "vtkZLibDataCompressor", f"{file}: {root.attrib}")
-    piece = root.find("UnstructuredGrid/Piece")
-    points, cells = int(piece.get("NumberOfPoints")), int(piece.get("NumberOfCells"))
-    data = root.find("AppendedData").text.strip()
-    require(data[0] == "_", f"{file}: no underscore before the appended data")
-    arrays = {}
-    for parent in piece:
-        for element in parent:
-            at = 1 + int(element.get("offset"))
-            # The header is encoded by itself: 24 bytes in 32 letters, with the size of one block 32 in 44.
-            blocks, size, rest = struct.unpack("<3Q", base64.b64decode(data[at:at + 32]))
-            raw = b""
-            if blocks:
-                *_, packed = struct.unpack("<4Q", base64.b64decode(data[at:at + 44]))
-                letters = (packed + 2) // 3 * 4
-                raw = zlib.decompress(base64.b64decode(data[at + 44:at + 44 + letters], validate=True))
-            require(blocks <= 1 and rest == 0 and len(raw) == size, f"{file}: {element.attrib}: sizes do not agree")
-            type_ = {"Float32": "<f4", "Int32": "<i4", "UInt8": "<u1"}[element.get("type")]
-            width = int(element.get("NumberOfComponents"))
-            values = numpy.frombuffer(raw, type_).reshape(-1, width) if width > 1 else numpy.frombuffer(raw, type_)
-            if element.get("Name") != "connectivity":
-                count = points if parent.tag in ("Points", "PointData") else cells
-                require(len(values) == count, f"{file}: {element.attrib}: {len(values)} entries instead of {count}")
-            arrays[element.get("Name")] = values
-    ends = arrays["offsets"]
-    require(len(arrays["connectivity"]) == (ends[-1] if len(ends) else 0), f"{file}: cells of another size than their points")
-    require(not len(arrays["connectivity"]) or arrays["connectivity"].max() < points, f"{file}: points that do not exist")
-    return arrays
 
 
 def exports(drumlin, one_disc, periodic, folder):

@@ -13,7 +13,12 @@ import sys
 import tomllib
 
 import browser
+import h5py
+import numpy
+import scipy.interpolate
+import scipy.spatial
 from command import bytes_below, given, has_address_sanitizer, read_json, require, require_keys
+from vtu_file import arrays_of
 
 RUN = ["wall_seconds", "cpu_seconds", "peak_memory_mb", "steps", "unconverged_steps", "revision", "seed"]
 FLOW = ["theta_deg", "Q", "H", "lambda", "unknowns", "iterations", "residual", "seconds", "ill_posed_share"]
@@ -108,6 +113,43 @@ def check_motion(folder):
             require(not page.faults() and all(url.startswith(("data:", file.as_uri())) for url in page.requests()),
                     f"{page.faults()} {page.requests()}")
     print("compare: the page moves")
+
+
+def check_overlay(drumlin, run, flow, folder):
+    """Both sides lie upon each other in ParaView: one wall, surfaces that slope alike, the same velocities at the grains; stresses are those of maps.h5."""
+    drumlin("export", run, "--vtu", "--snapshots", "last", "-o", folder / "vtu")
+    number = max(int(file.stem) for file in (run / "snapshots").glob("*.h5"))
+    walls, grains = (arrays_of(folder / "vtu" / kind / f"{number:06}.vtu") for kind in ("walls", "grains"))
+    cells, told = arrays_of(flow / "flow.vtu"), read_json(flow / "flow.json")
+    with h5py.File(flow / "maps.h5") as file:
+        d, second, rho = (file["scales/" + name][()] for name in ("length_m", "time_s", "density_kg_m3"))
+        z, x, stress = (file[name][:] for name in ("z", "x", "fields/sigma_xz"))
+    points = cells["Points"][:, :2].astype(float)
+    radius = numpy.hypot(*walls["Points"][:, :2].T).max()
+    require(abs(numpy.hypot(*points.T).max() - radius) < 1e-5 * radius, f"walls of {radius} and {numpy.hypot(*points.T).max()} m")
+    # Axes of the flow at the axis of the drum: x downslope to the right.
+    slope, offset = math.radians(told["theta_deg"]), told["chord_offset"] * d
+    turned = numpy.column_stack([points @ (math.cos(slope), -math.sin(slope)), points @ (math.sin(slope), math.cos(slope))])
+    surface = turned[turned[:, 1] > turned[:, 1].max() - 1e-6, 0]
+    chord = 2 * math.sqrt(radius**2 - offset**2)
+    require(abs(turned[:, 1].max() + offset) < 1e-6 and abs(numpy.ptp(surface) - chord) < 1e-5 * chord, f"a surface at {turned[:, 1].max()} m of {surface} m")
+    places, speeds = grains["Points"][:, :2], grains["velocity_m_s"][:, :2]
+    require(numpy.linalg.norm(places.mean(axis=0) - points.mean(axis=0)) < 2 * d, f"grains about {places.mean(axis=0)}, the flow about {points.mean(axis=0)} m")
+    away, nearest = scipy.spatial.cKDTree(points).query(places)
+    near = (away < d) & (numpy.hypot(*places.T) > radius - 3 * d)  # at the wall, with which both move
+    there = cells["velocity_m_s"][nearest[near], :2]
+    factor = (speeds[near] * there).sum() / (there**2).sum()
+    require(near.sum() > 50 and abs(factor - 1) < 0.2, f"velocities of {near.sum()} grains are {factor:.2f} times those of the flow")
+    # sigma_xz in the axes of the flow again, at the nodes of the map, over rho0 g d.
+    xx, zz, xz = (cells[f"sigma_{name}_Pa"].astype(float) for name in ("xx", "zz", "xz"))
+    cosine, sine = math.cos(2 * slope), math.sin(2 * slope)
+    along = (cosine * xz - 0.5 * sine * (xx - zz)) / (rho * (d / second)**2)
+    nodes = numpy.stack(numpy.meshgrid(x * d, z * d - offset), axis=-1)
+    found = scipy.interpolate.LinearNDInterpolator(turned, along)(nodes)
+    both = numpy.isfinite(stress) & numpy.isfinite(found)
+    share = math.sqrt(((found - stress)[both]**2).sum() / (stress[both]**2).sum())
+    require(both.sum() > 100 and share < 0.1, f"sigma_xz of {both.sum()} nodes differs from maps.h5 by {share:.3f}")
+    print(f"flow.vtu lies upon the grains: {near.sum()} velocities, {both.sum()} stresses")
 
 
 def check_edited_flow_is_refused(drumlin, run, flow, folder):
@@ -229,6 +271,7 @@ def main():
         drumlin("calibrate", run, "-o", folder / "memory.toml", "--memory", "--accept-unsteady", code=2)
         require(not list(folder.glob("memory.*")), "a calibration that was refused left files")
         check_measurements(drumlin, run, flow, law, folder)
+        check_overlay(drumlin, run, flow, folder)
         check_readers([run, law, flow, report, here.parents[1] / "data" / "problems" / "drum-300-mu-0.4-flow.h5"], folder)
         check_edited_flow_is_refused(drumlin, run, flow, folder)
         # The scene that a run leaves makes the same run again; so does another number of threads.
