@@ -25,6 +25,14 @@ for k in {{1..3000}}; do sleep 0.1; done
 """
 
 
+# What compiles the other programs beside the particles.
+COMPILER = """#!/bin/bash
+[[ "$*" == *programs* ]] || exit 0
+echo $$ > '{compiling}'
+for k in {{1..3000}}; do sleep 0.1; done
+"""
+
+
 def stub(path, text=STUB):
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
@@ -71,6 +79,16 @@ def main():
         for command in commands:
             for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
                 interrupted(root, command, number)
+        compiling = root / "compiling"
+        stub(root / "bin/cmake", COMPILER.format(compiling=compiling))
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            interrupted(root, "build/drumlin", number)
+            require(not compiling.exists() or not pathlib.Path("/proc", compiling.read_text().strip()).exists(), f"{number.name} leaves a compiler at work")
+        # A compiler that fails ends the call, once the particles are there.
+        stub(root / "bin/cmake", '#!/bin/bash\n[[ "$*" != *programs* ]] || { echo no memory; exit 1; }\n')
+        result = subprocess.run([root / "reproduce", "--smoke", "-o", root / "results"], capture_output=True, text=True, check=False,
+                                env={"PATH": f"{root / 'bin'}:/usr/bin:/bin"})
+        require(result.returncode == 1 and "no memory" in result.stderr and '"particle run" failed' in result.stderr, f"{result}")
     print("reproduce: signals reach what is at work")
 
 
