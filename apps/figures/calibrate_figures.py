@@ -1,5 +1,5 @@
-"""Figure of `drumlin calibrate`: the points of all runs over I, the law with its 99 % band, what is left, and the axes; below them the memory of
-the axes, where it was asked for.
+"""Figure of `drumlin calibrate`: the points of all runs over I, the law with its 99 % band, the residual, and the axes; below them the memory of
+the axes and the threshold of fluidity, where they were fitted.
 
 usage: calibrate_figures.py RECORD_JSON PICTURE
 
@@ -51,8 +51,8 @@ def draw_amount(axes, memory):
     axes.set_ylim(bottom=0)
     axes.set_xlabel(r"$I = 2|D|/\sqrt{p}$")
     axes.set_ylabel(r"$|s|/p$")
-    axes.set_title("Amount of the stress")
-    axes.legend(loc="lower right", fontsize=8)
+    axes.set_title("Stress ratio")
+    axes.legend(loc="lower right")
 
 
 def draw_arc(axes, arc, with_legend):
@@ -62,49 +62,48 @@ def draw_arc(axes, arc, with_legend):
     axes.plot(arc["angle_deg"], arc["strain_rate_deg"], "--", color="0.45", label="strain rate (no memory)")
     axes.axhline(0, color="0.5", linewidth=1)
     axes.set_title(f"r = {arc['radius'][0]:.0f} to {arc['radius'][1]:.0f} d")
-    axes.set_xlabel("angle from below the axis, downslope + [°]", fontsize=10)
+    axes.set_xlabel("angle from below the axis, downslope +  [°]")
+    axes.set_ylabel("axis less that of simple shear  [°]")
     if with_legend:
-        axes.set_ylabel("axis less that of simple shear [°]")
-        axes.legend(fontsize=9)
+        axes.legend()
 
 
-def draw_memory(figure, memory):
-    panels = figure.subplots(1, 1 + len(memory["arcs"]))
-    draw_amount(panels[0], memory)
-    for i, arc in enumerate(memory["arcs"]):
-        draw_arc(panels[i + 1], arc, i == 0)
-        panels[i + 1].sharey(panels[1])
-    law, free = memory["law"], memory["free"]
-    found = ", ".join(f"{key} = {free[key]['value']:.2f} ± {free[key]['ci99_sectors'] or math.nan:.2f}" for key in ("c", "m", "chi"))
-    figure.suptitle(f"Memory of the axes: {found} (99 %); the law takes c = {law['c']:.2f}, m = {law['m']:.2f}, chi = {law['chi']:.2f}, "
-                    f"c_rho = {law['c_rho']:g}", fontsize=12)
+def memory_panels(memory):
+    return [lambda axes: draw_amount(axes, memory), *(lambda axes, arc=arc: draw_arc(axes, arc, arc is memory["arcs"][0]) for arc in memory["arcs"])]
 
 
-def draw_nonlocal(figure, nonlocal_record):
-    """What curves upwards over mu, beside what a threshold would ask for."""
-    axes, misfits = figure.subplots(1, 2)
+def draw_curvature(axes, nonlocal_record):
+    """What curves upwards over the stress ratio, beside what a threshold would require."""
     lengths = nonlocal_record["lengths"]
     middle = [sum(length["mu"]) / 2 for length in lengths]
     axes.plot(middle, [length["curvature"] for length in lengths], "o-", color=style.PARTICLES, label="measured")
     laws = [("fit", nonlocal_record["amplitude"], nonlocal_record["mu_s"])]
-    laws += [(f"mu_s = {law['mu_s']:.2f}", law["amplitude"], law["mu_s"]) for law in nonlocal_record["given_mu_s"] if law["mu_s"] in (0.22, 0.26)]
+    laws += [(rf"$\mu_s$ = {law['mu_s']:.2f}", law["amplitude"], law["mu_s"]) for law in nonlocal_record["given_mu_s"] if law["mu_s"] in (0.22, 0.26)]
     for (name, amplitude, threshold), line in zip(laws, ("-", "--", ":")):
         if amplitude > 0:
             below = [mu for mu in middle if mu < threshold] + [threshold]
             axes.plot(below, [(threshold - mu) / amplitude**2 for mu in below], line, color=style.CONTINUUM, label=f"{name}: A = {amplitude:.2f}")
     axes.axhline(0, color="0.6", linewidth=0.8)
     axes.set_ylim(top=2.5 * max(length["curvature"] for length in lengths))
-    axes.set_xlabel("|s|/p")
-    axes.set_ylabel("lap g/g [1/d²]")
-    axes.legend(fontsize=9)
+    axes.set_xlabel(r"$|s|/p$")
+    axes.set_ylabel(r"$\nabla^2g/g$  [$1/d^2$]")
+    axes.set_title("Curvature of the fluidity")
+    axes.legend()
+
+
+def draw_misfits(axes, nonlocal_record):
     given = nonlocal_record["given_mu_s"]
-    misfits.plot([law["mu_s"] for law in given], [law["rms_bed"] for law in given], "s-", color=style.CONTINUUM, label="a threshold at mu_s with its best A")
-    misfits.axhline(nonlocal_record["rms_local_bed"], color=style.PARTICLES, label="|s|/p follows I: no threshold")
-    misfits.set_ylim(bottom=0)
-    misfits.set_xlabel("mu_s")
-    misfits.set_ylabel("misfit of |s|/p in the bed, rms")
-    misfits.legend(fontsize=9)
-    figure.suptitle(f"Nonlocal fluidity with a threshold: A = {nonlocal_record['amplitude']:.2f}, mu_s = {nonlocal_record['mu_s']:.3f}", fontsize=12)
+    axes.plot([law["mu_s"] for law in given], [law["rms_bed"] for law in given], "s-", color=style.CONTINUUM, label=r"threshold $\mu_s$, its best A")
+    axes.axhline(nonlocal_record["rms_local_bed"], color=style.PARTICLES, label="function of I: no threshold")
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel(r"$\mu_s$")
+    axes.set_ylabel(r"residual of $|s|/p$ in the bed, rms")
+    axes.set_title("Threshold of the fluidity")
+    axes.legend()
+
+
+def nonlocal_panels(nonlocal_record):
+    return [lambda axes: draw_curvature(axes, nonlocal_record), lambda axes: draw_misfits(axes, nonlocal_record)]
 
 
 def curve_of(record):
@@ -129,7 +128,7 @@ def draw_law(axes, record):
 
 
 def draw_rest(axes, record):
-    """What the law leaves of the points, beside its 99 % band."""
+    """Residual of the points, beside the law's 99 % band."""
     draw_points(axes, record, "mu", colors_of(record), less_law=True)
     curve = curve_of(record)
     value = np.array(curve["value"])
@@ -146,7 +145,7 @@ def draw_misalignment(axes, record):
     axes.plot(record["turn"]["axis_angle"]["I"], record["turn"]["axis_angle"]["degrees"], color=style.PAPER, label="fit")
     axes.axhline(0, color="0.5", linewidth=1)
     axes.set_ylim(-50, 30)
-    axes.set_ylabel("axis of the stress less that of the strain rate [°]")
+    axes.set_ylabel("axis of stress less that of strain rate  [°]")
     over_inertial_number(axes, record)
 
 
@@ -163,25 +162,20 @@ def over_inertial_number(axes, record):
 def main():
     record = script.content_of(sys.argv[1])
     style.use_style()
-    with_axes = record["turn"] is not None and "axis_angle_deg" in record["points"][0]
-    further = [(draw, record[key]) for draw, key in ((draw_memory, "memory"), (draw_nonlocal, "nonlocal")) if key in record]
-    if not further:
-        figure, panels = plt.subplots(1, 3 if with_axes else 2, figsize=(17 if with_axes else 12, 4.8))
-    else:
-        untold = [sentence for _, found in further for sentence in found["untold"]]
-        share = 0.05 * (2 + len(untold))
-        figure = plt.figure(figsize=(17, 5 * (1 + 1.05 * len(further) + share)))
-        above, *below, words = figure.subfigures(2 + len(further), 1, height_ratios=[1, *[1.05] * len(further), share])
-        panels = above.subplots(1, 3 if with_axes else 2)
-        for part, (draw, found) in zip(below, further):
-            draw(part, found)
-        lines = ["What the runs cannot tell"] + ["- " + style.plain(sentence, 190) for sentence in untold]
-        words.text(0.02, 0.95, "\n".join(lines), va="top", fontsize=10)
-    parts = [(draw_law, style.title_of("Friction law", record["reduced"])), (draw_rest, "What the law leaves"), (draw_misalignment, "Misalignment")]
-    for axes, (draw, title) in zip(panels, parts):
+    parts = [(draw_law, style.title_of("Friction law", record["reduced"])), (draw_rest, "Residual")]
+    if record["turn"] is not None and "axis_angle_deg" in record["points"][0]:
+        parts.append((draw_misalignment, "Non-coaxiality angle"))
+    further = [panel for panels_of, key in ((memory_panels, "memory"), (nonlocal_panels, "nonlocal")) if key in record for panel in panels_of(record[key])]
+    rows = math.ceil((len(parts) + len(further)) / 2)
+    figure, panels = plt.subplots(rows, 2, figsize=(10, 4.2 * rows), squeeze=False)
+    for axes, (draw, title) in zip(panels.flat, parts):
         draw(axes, record)
         axes.set_title(title)
         axes.legend(loc="lower right", fontsize=9)
+    for axes, draw in zip(panels.flat[len(parts):], further):
+        draw(axes)
+    for axes in panels.flat[len(parts) + len(further):]:
+        axes.axis("off")
     style.save(figure, sys.argv[2], record["reduced"])
 
 

@@ -81,8 +81,14 @@ class Colour:
 
     def scale_size(self, values, _):
         low, high = values.min(), values.max()
-        self.norm = (matplotlib.colors.LogNorm if high > 4 * low else matplotlib.colors.Normalize)(low, max(high, 1.001 * low))
+        sizes = np.unique(np.round(values, 6))
         self.label, self.extend = r"diameter  [$d$]", "neither"
+        if len(sizes) <= len(MATERIALS):  # a colour for each
+            edges = np.concatenate([[low - 0.1], (sizes[1:] + sizes[:-1]) / 2, [high + 0.1]])
+            self.cmap, self.norm = matplotlib.colors.ListedColormap(MATERIALS[:len(sizes)]), matplotlib.colors.BoundaryNorm(edges, len(sizes))
+            self.ticks, self.names = (edges[1:] + edges[:-1]) / 2, [f"{size:.3g}" for size in sizes]
+            return
+        self.norm = (matplotlib.colors.LogNorm if high > 4 * low else matplotlib.colors.Normalize)(low, max(high, 1.001 * low))
 
     def scale_pressure(self, values, _):
         most = max(np.quantile(values, 0.99), STILL)

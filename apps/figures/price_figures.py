@@ -62,10 +62,10 @@ def of_particles(report):
     """Changes relative to the scene as it is, with and without each effect."""
     priced = [row for row in report["variants"] if "cpu_seconds" in row]
     base, rows = priced[0], priced[1:][::-1]
-    figure, all_axes = plt.subplots(1, len(PANELS), sharey=True, figsize=(12, 2.2 + 0.36 * len(rows)))
-    for axes, (key, title) in zip(all_axes, PANELS):
+    figure, all_axes = plt.subplots(2, 2, sharey=True, figsize=(7.5, 2.4 + 0.8 * len(rows)))
+    for axes, (key, title) in zip(all_axes.flat, PANELS):
         draw_panel(axes, key, title, base, rows)
-    all_axes[0].set_yticks(range(len(rows)), [label(row) for row in rows])
+    all_axes[0, 0].set_yticks(range(len(rows)), [label(row) for row in rows])
     figure.suptitle(style.title_of(f"{style.plain(report['title'])}, first {report['simulated_seconds']:g} s\n"
                                    "without (-) and with (+) an effect, against the scene as it is",
                                    report["reduced"]), fontsize=13)
@@ -126,12 +126,12 @@ def errors(report):
     rows = rows_of(report)
     known = [i for i, target in enumerate(rows[0]["targets"]) if target["quantity"] != "Q" and all(row["targets"][i]["value"] is not None for row in rows)]
     ratios = [[row["targets"][i]["value"] / row["targets"][i]["limit"] for i in known] for row in rows]
-    figure, (axes, bars) = plt.subplots(1, 2, figsize=(13.5, 1.6 + 0.45 * len(rows)), width_ratios=[4, 1], sharey=True)
+    figure, (axes, bars) = plt.subplots(1, 2, figsize=(9.5, 2.2 + 0.42 * len(rows)), width_ratios=[5, 1], sharey=True)
     axes.imshow([[min(ratio, 2) for ratio in line] for line in ratios], cmap="RdYlGn_r", norm=TwoSlopeNorm(1, 0, 2), aspect="auto", alpha=0.75)
     for y, line in enumerate(ratios):
         for x, ratio in enumerate(line):
-            axes.text(x, y, f"{ratio:.2f}", ha="center", va="center", fontsize=10.5, weight="bold" if ratio > 1 else "normal")
-    axes.set_xticks(range(len(known)), [name_of(rows[0]["targets"][i]) for i in known], fontsize=10)
+            axes.text(x, y, f"{ratio:.1f}", ha="center", va="center", fontsize=11, weight="bold" if ratio > 1 else "normal")
+    axes.set_xticks(range(len(known)), [name_of(rows[0]["targets"][i]).replace("\n", ", ") for i in known], rotation=60, ha="right", rotation_mode="anchor")
     axes.set_yticks(range(len(rows)), [row["name"] for row in rows])
     axes.grid(False)
     axes.set_title("error / limit against the particles; bold: missed", fontsize=12)
@@ -140,7 +140,7 @@ def errors(report):
     for y, value in enumerate(seconds):
         bars.text(value, y, f" {value:.0f}", va="center", fontsize=10.5)
     bars.set_xlim(0, 1.2 * max(seconds))
-    bars.set_title("processor seconds", fontsize=12)
+    bars.set_title("seconds", fontsize=12)
     return figure
 
 

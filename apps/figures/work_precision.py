@@ -82,7 +82,7 @@ def draw_panel(axes, cost, quantity):
     shown = [point for point in cost["points"] if "failure" not in point]
     limit_errors(axes, [error_of(point, quantity) for point in shown])
     mark_seconds(axes, [point["cpu_seconds"] for point in shown])
-    axes.tick_params(axis="both", which="both", labelsize=9)
+    axes.tick_params(axis="both", which="both", labelsize=11)
     axes.set_title(name_of(quantity))
     axes.set_xlabel("processor seconds per second" if cost["kind"] == "particles" else "processor time  [s]")
 
@@ -90,9 +90,9 @@ def draw_panel(axes, cost, quantity):
 def draw(cost):
     """The work-precision diagram of one cost.json, a panel for each quantity."""
     quantities = [quantity for quantity in cost["quantities"] if any(error_of(point, quantity) > ROUNDING for point in cost["points"])]
-    columns = min(4, len(quantities) + 1)
+    columns = 2
     rows = math.ceil((len(quantities) + 1) / columns)  # the last place is the legend's
-    figure, panels = plt.subplots(rows, columns, figsize=(4.0 * columns, 3.7 * rows), squeeze=False)
+    figure, panels = plt.subplots(rows, columns, figsize=(7.5, 3.1 * rows), squeeze=False)
     for axes, quantity in zip(panels.flat, quantities):
         draw_panel(axes, cost, quantity)
     for row in panels:
@@ -100,8 +100,8 @@ def draw(cost):
     for axes in panels.flat[len(quantities):]:
         axes.axis("off")
     handles, labels = panels.flat[0].get_legend_handles_labels()
-    panels.flat[len(quantities)].legend(handles, labels, loc="center left", fontsize=10)
-    figure.suptitle(style.title_of(f"{cost['title']}: {subtitle(cost)}", cost["reduced"]), fontsize=13)
+    panels.flat[len(quantities)].legend(handles, labels, loc="center left")
+    figure.suptitle(style.plain(style.title_of(f"{cost['title']}: {subtitle(cost)}", cost["reduced"]), 60), fontsize=13)
     return figure
 
 
@@ -120,9 +120,9 @@ def draw_statistics(cost):
     known = [name for name in STATISTICS if any(name in point["statistics"]["scalars"] for point in points)]
     if not points or not known:
         return None
-    columns = min(3, len(known))
+    columns = 2
     rows = math.ceil(len(known) / columns)
-    figure, panels = plt.subplots(rows, columns, figsize=(4.6 * columns, 3.6 * rows), squeeze=False)
+    figure, panels = plt.subplots(rows, columns, figsize=(7.5, 3.1 * rows), squeeze=False)
     steps = sorted({point["step_s"] for point in points})
     for axes, name in zip(panels.flat, known):
         for step, color in zip(steps, style.COLORS):
@@ -143,7 +143,7 @@ def draw_statistics(cost):
         axes.axis("off")
     panels.flat[0].legend(fontsize=9)
     seconds = points[0]["statistics"]["simulated_seconds"]
-    figure.suptitle(style.title_of(f"{cost['title']}: measured over {seconds:g} s, bars 99 %", cost["reduced"]), fontsize=13)
+    figure.suptitle(style.plain(style.title_of(f"{cost['title']}: measured over {seconds:g} s, bars 99 %", cost["reduced"]), 60), fontsize=13)
     return figure
 
 

@@ -19,7 +19,7 @@ from bed_edges import ANGLES, fields_of, rounded, slip_length, wall_of
 plt = style.plt
 SCALARS = ("theta_deg", "theta_com_deg", "Q", "H", "shear_rate", "lambda", "I_th", "nu_bulk", "k_flowing")
 SLIP_AT = (-60, -30, 0)  # deg
-FITTED = {"theta_deg": "theta", "H": "H", "shear_rate": "shear rate", "slip_-60": "slip of the wall at -60 deg"}
+FITTED = {"theta_deg": r"$\theta$", "H": "$H$", "shear_rate": r"$\dot\gamma$", "slip_-60": r"slip of the wall at $-60\degree$"}
 HALF = 0.33  # share of the drum's area that discs cover, between the two fillings
 
 
@@ -82,9 +82,9 @@ def number(entry):
 
 def draw(record, picture):
     style.use_style()
-    figure, panels = plt.subplots(1, 4, figsize=(13, 4.4))
+    figure, panels = plt.subplots(2, 2, figsize=(7.5, 9))
     kinds = sorted({(run["filling"], run["friction"]) for run in record["runs"]}, key=lambda kind: (kind[0] != "half", -kind[1]))
-    for axes, (name, title) in zip(panels, FITTED.items()):
+    for axes, (name, title) in zip(panels.flat, FITTED.items()):
         for (filling, friction), marker, colour in zip(kinds, "osD^", [style.PARTICLES, *style.OTHERS]):
             here = [run for run in record["runs"] if (run["filling"], run["friction"]) == (filling, friction)]
             full = "full" if filling == "half" else "none"
@@ -102,8 +102,8 @@ def draw(record, picture):
         axes.yaxis.set_major_formatter(style.matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:g}"))
         axes.set_xlabel("$D/d$")
         axes.set_title(title + {"theta_deg": " [deg]", "H": " [d]"}.get(name, ""))
-    figure.get_layout_engine().set(rect=(0, 0.16, 1, 0.84))
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="lower center", ncol=5, fontsize=9)
+    figure.get_layout_engine().set(rect=(0, 0.2, 1, 0.8))
+    figure.legend(*panels.flat[0].get_legend_handles_labels(), loc="lower center", ncol=2)
     style.save(figure, picture, False)
 
 

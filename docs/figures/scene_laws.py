@@ -10,7 +10,6 @@ import math
 import pathlib
 
 import numpy
-import scene_runs
 import script
 import style
 import whole_file
@@ -69,17 +68,15 @@ def transfers(shear, chute, chute_runs):
 
 def drawn(shear, chute, file):
     style.use_style()
-    figure, axes = plt.subplots(1, 2, figsize=(9.6, 4.6))
-    line = numpy.geomspace(2e-3, 0.25, 60)
-    for axis, (name, literature) in zip(axes, scene_runs.da_cruz(line).items()):
-        axis.semilogx(line, literature, color=style.PAPER, linestyle="--", label="da Cruz et al. 2005, from memory")
+    figure, axes = plt.subplots(2, 1, figsize=(6.4, 7), sharex=True)
+    for axis, name in zip(axes, ("mu", "nu")):
+        axis.set_xscale("log")
         errors = [point["mu_ci99"] for point in shear] if name == "mu" else None
         axis.errorbar([p["I"] for p in shear], [p[name] for p in shear], yerr=errors, fmt="o", color=style.PARTICLES, label="plane shear")
         axis.plot([p["I"] for p in chute], [p[name] for p in chute], "s", color=style.CONTINUUM, label="chute: mu = tan(slope)" if name == "mu" else "chute")
-        axis.set_xlabel("I")
         axis.set_ylabel(r"$\mu$" if name == "mu" else r"$\nu$")
     axes[1].legend(loc="lower left")
-    axes[0].set_title("Discs of +-20 %, friction 0.4 (bars: 99 %)")
+    axes[1].set_xlabel("$I$")
     style.save(figure, file, reduced=True)
 
 
