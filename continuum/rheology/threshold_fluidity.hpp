@@ -25,8 +25,8 @@ inline Strength strength(const FluidityLaw& law, double rate, double pressure) {
 
 /// mu_loc - mu, what the curvature of the fluidity has to make up for, and its slopes.
 struct FluidityBalance {
-  double local = 0;  ///< mu_loc
-  double mu = 0;     ///< 2|D|/g; the slope of mu_loc - mu by ln g is mu
+  double mu_loc = 0;
+  double mu = 0;  ///< 2|D|/g; the slope of mu_loc - mu by ln g is mu
   double by_rate = 0;
   double by_pressure = 0;  ///< by the law's own p
 };
@@ -44,7 +44,7 @@ FluidityBalance fluidity_balance(const Law& law, const std::optional<double>& th
     by_ln_rate = above.slope;
   }
   const double per_rate = 2 * std::exp(-ln_fluidity);
-  return {.local = mu,
+  return {.mu_loc = mu,
           .mu = per_rate * rate,
           .by_rate = by_ln_rate / rate - per_rate,
           .by_pressure = -0.5 * by_ln_rate / pressure};  // I = 2|D|/sqrt(p)

@@ -2,13 +2,13 @@
 // One description of the keys of a struct, written once, that reads it from a document, writes it and lists
 // it:
 //
-//   template <class Visitor> void describe(Visitor& v, Gravity& g) {
-//     v.value("acceleration_m_s2", g.acceleration_m_s2, defaulted("m/s2", above(0), "Strength of gravity."));
-//   }
-//   std::vector<InputProblem> problems;
-//   auto scene = read_keys<Scene>(document, problems);   // every problem of the file at once
-//   std::string text = toml_text(write_keys(scene));     // resolved: holds the defaults too
-//   std::vector<KeyRow> rows = list_keys<Scene>();
+//     template <class Visitor> void describe(Visitor& v, Gravity& g) {
+//       v.value("acceleration_m_s2", g.acceleration_m_s2, defaulted("m/s2", above(0), "Strength."));
+//     }
+//     std::vector<InputProblem> problems;
+//     auto scene = read_keys<Scene>(document, problems);   // every problem of the file at once
+//     std::string text = toml_text(write_keys(scene));     // resolved: holds the defaults too
+//     std::vector<KeyRow> rows = list_keys<Scene>();
 //
 // A default is what the default-constructed struct holds. Paths are those of overrides:
 // "stages.1.time_step_s".

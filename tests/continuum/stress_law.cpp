@@ -112,9 +112,9 @@ TEST(ThresholdFluidityLaw, IsTheLawWhereNothingSpreadsAndNeverFallsBelowItsThres
     const double p = 3, rate = 0.5 * I * std::sqrt(p), y = std::log(2 * rate / 0.3);
     const FluidityBalance at = fluidity_balance(falls, 0.26, y, rate, p);
     EXPECT_NEAR(at.mu, 0.3, 1e-14);
-    EXPECT_GT(at.local, 0.26);
-    EXPECT_NEAR(at.local, std::max(0.26, falls.friction(I).mu), 2e-4) << I;  // half a thousandth at the kink
-    EXPECT_DOUBLE_EQ(fluidity_balance(falls, {}, y, rate, p).local, falls.friction(I).mu);
+    EXPECT_GT(at.mu_loc, 0.26);
+    EXPECT_NEAR(at.mu_loc, std::max(0.26, falls.friction(I).mu), 2e-4) << I;  // half a thousandth at the kink
+    EXPECT_DOUBLE_EQ(fluidity_balance(falls, {}, y, rate, p).mu_loc, falls.friction(I).mu);
     EXPECT_NEAR(strength(FluidityLaw{y}, rate, p).value, 0.3 * p, 1e-14);
   }
 }
@@ -125,7 +125,7 @@ TEST(ThresholdFluidityLaw, HasTheSlopesOfItsBalance) {
   for (const double rate : {1e-5, 1e-3, 1e-2}) {
     const auto value = [&](double here, double pressure, double at_y) {
       const FluidityBalance at = fluidity_balance(falls, 0.26, at_y, here, pressure);
-      return at.local - at.mu;
+      return at.mu_loc - at.mu;
     };
     const FluidityBalance at = fluidity_balance(falls, 0.26, y, rate, p);
     EXPECT_NEAR((value(rate * (1 + h), p, y) - value(rate * (1 - h), p, y)) / (2 * h), rate * at.by_rate,

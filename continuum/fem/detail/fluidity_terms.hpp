@@ -21,7 +21,7 @@ inline void add_fluidity_residual(const CellShapes& s, unsigned int q, const Poi
   const CellShapes::Point& shape = s.points[q];
   for (unsigned int a = 0; a < s.corners; ++a)
     residual[s.fluidity[a]] += (A2 * (dot(at.fluidity_slope, shape.slope[a]) - steep * shape.linear[a]) +
-                                (balance.local - balance.mu) * shape.linear[a]) *
+                                (balance.mu_loc - balance.mu) * shape.linear[a]) *
                                JxW;
 }
 
