@@ -50,7 +50,7 @@ std::vector<SettledFluidity::Source> SettledFluidity::sources(const Setting& set
   std::vector<Source> found;
   with_fluidity_law(problem_, setting.law, state.held_values(), [&](const auto& law) {
     for_each_point(d_, state.solution, [&](const PointValues& at, std::size_t) {
-      found.push_back({point_balance(law.law, law.effect, setting.regularisation, at).local,
+      found.push_back({point_balance(law.law, law.effect, setting.regularisation, at).mu_loc,
                        2 * regularised_rate(at.D, setting.regularisation)});
     });
   });
