@@ -1,10 +1,8 @@
 """The edges of the bed, read off the particles: the wall, along which it slips, and the line I = 1e-2 below the flow.
 
 usage: bed_edges.py RECORD.json --runs RUN... [--contacts SNAPSHOTRUN...]
-       bed_edges.py RECORD.json --keys RPM slip|along|corner|line|both
 Each RUN has measured/maps.h5 with displacement fields; a SNAPSHOTRUN its snapshots, too. Angles phi are from below the axis, positive
-downslope: material meets the wall at 87 deg and leaves it at -87. --keys prints what `drumlin flow --set` takes (effects.given_slip,
-effects.held_line) of a record, a line each.
+downslope: material meets the wall at 87 deg and leaves it at -87.
 """
 
 import argparse
@@ -118,6 +116,12 @@ def slip_length(wall):
     return {"mean": float(numpy.mean(lengths)), "deviation": float(numpy.std(lengths, ddof=1))}
 
 
+def entrainment_length(wall, radius):
+    """Over which the slip falls by e where material meets the wall, in d: least squares of ln slip from 74 to 84 deg."""
+    points = numpy.array([(math.radians(angle), math.log(slip)) for angle, slip in zip(ANGLES, wall["slip"]) if 74 <= angle <= 84 and slip > 0])
+    return radius / float(numpy.polyfit(*points.T, 1)[0])
+
+
 def speed_exponents(speeds):
     """d ln slip/d ln Omega at each angle where all speeds slip by more than 2e-4, by least squares."""
     found = {}
@@ -126,20 +130,6 @@ def speed_exponents(speeds):
         if (slip > 2e-4).all():
             found[angle] = float(numpy.polyfit(numpy.log([float(rpm) for rpm in speeds]), numpy.log(slip), 1)[0])
     return found
-
-
-def keys_of(speed, edges):
-    """`corner`: where material meets the wall alone (from 65 deg), `along`: the rest."""
-    def row(values, digits):
-        return "[" + ", ".join(f"{value:.{digits}f}" for value in values) + "]"
-
-    if edges != "line":
-        left_out = {"along": lambda angle: angle >= 65, "corner": lambda angle: angle < 65}.get(edges, lambda angle: False)
-        known = [(angle, 0 if left_out(angle) else slip) for angle, slip in zip(ANGLES, speed["wall"]["slip"]) if slip is not None]
-        print(f"effects.given_slip={{angle_deg={row([a for a, _ in known], 1)}, share={row([s for _, s in known], 5)}}}")
-    if edges in ("line", "both"):
-        line = speed["line"]
-        print(f"effects.held_line={{x={row(LINE_X, 1)}, z={row(line['z'], 3)}, v_x={row(line['v_x'], 5)}, shear_rate={row(line['shear_rate'], 5)}}}")
 
 
 def mean_of(tables):
@@ -151,17 +141,15 @@ def main():
     parser.add_argument("record", type=pathlib.Path)
     parser.add_argument("--runs", type=pathlib.Path, nargs="+", default=[])
     parser.add_argument("--contacts", type=pathlib.Path, nargs="+", default=[])
-    parser.add_argument("--keys", nargs=2)
     options = parser.parse_args()
-    if options.keys:
-        keys_of(json.loads(options.record.read_text())["speeds"][options.keys[0]], options.keys[1])
-        return
     speeds = {}
     for run in options.runs:
         f, radius, rotation = fields_of(run)
-        speeds.setdefault(run.name.split("rpm")[0], []).append({"run": run.name, "wall": wall_of(f, radius, rotation), "line": line_of(f)})
+        speeds.setdefault(run.name.split("rpm")[0], []).append({"run": run.name, "wall": wall_of(f, radius, rotation), "line": line_of(f), "radius": radius})
     speeds = {rpm: {"runs": [run["run"] for run in of], "wall": mean_of([run["wall"] for run in of]), "line": mean_of([run["line"] for run in of]),
                     "slip_length": slip_length(mean_of([run["wall"] for run in of])),
+                    "entrainment_length": {"of_runs": [entrainment_length(run["wall"], run["radius"]) for run in of],
+                                           "of_mean": entrainment_length(mean_of([run["wall"] for run in of]), of[0]["radius"])},
                     "slip_between_runs": numpy.std([run["wall"]["slip"] for run in of], axis=0, ddof=1).tolist() if len(of) > 1 else None}
               for rpm, of in sorted(speeds.items(), key=lambda entry: float(entry[0]))}
     record = {"format": "drumlin-bed-edges-1", "angles_deg": ANGLES, "line_x": LINE_X, "speeds": speeds, "speed_exponents": speed_exponents(speeds),
