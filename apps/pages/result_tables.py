@@ -250,12 +250,6 @@ ROWS = {  # of the limits, in the order of data/limits/bed.toml; at x = 0 where 
 }
 
 
-def cells_of(entry):
-    """{(quantity, where, zone): (row, {rpm: cell})} by the axis."""
-    rows = [row for row in read("memory/limits-speeds.json")[entry]["limits"]["rows"] if row["registered_by"] == "axis"]
-    return {(row["quantity"], row["where"], row["zone"]): (row, {round(cell["rotation_rpm"]): cell for cell in row["cells"]}) for row in rows}
-
-
 def judged(cell):
     if cell is None or cell["value"] is None:
         return ""
@@ -263,30 +257,43 @@ def judged(cell):
 
 
 BLIND = (3, 12)
-AMOUNT, AXES, WITHOUT = "with effects.memory, the amount, and the p_min of the particles", "with effects.memory", "without"
+
+
+def by_row(rows):
+    """{(quantity, where, zone): row} by the axis."""
+    return {(row["quantity"], row["where"], row["zone"]): row for row in rows if row["registered_by"] == "axis"}
+
+
+def scored():
+    """{law: rows} of continua at 6 rpm as `drumlin score` judges them."""
+    return {name: by_row(entry["score"]["rows"]) for name, entry in read("memory/scores-6rpm.json")["laws"].items()}
+
+
+def score_cell(row):
+    return judged({"value": row["error"], "met": row["met"]})
 
 
 def limits():
-    found = cells_of(AMOUNT)
-    shown = sorted(next(iter(found.values()))[1])
+    """The flow with memory at all speeds, beside two simpler laws at 6 rpm."""
+    found, laws = by_row(read("memory/limits-speeds.json")["limits"]["rows"]), scored()
+    cells = {key: {round(cell["rotation_rpm"]): cell for cell in found[key]["cells"]} for key in ROWS}
+    shown = sorted(next(iter(cells.values())))
     head = [f"{rpm}{' (blind)' if rpm in BLIND else ''}" for rpm in shown]
     head[-1] += " rpm"
-    without, axes, rows = cells_of(WITHOUT), cells_of(AXES), []
+    rows = []
     for key, name in ROWS.items():
-        row, cells = found[key]
+        row = found[key]
         worst = f" in the mean, each {row['must_worst']:g}" if "must_worst" in row else ""
-        rows.append([name, f"{row['must']:g}{worst}; {row['aim']:g}", number(cells[6]["floor"], 2), judged(without[key][1].get(6)), judged(axes[key][1].get(6)), *(judged(cells.get(rpm)) for rpm in shown)])
+        rows.append([name, f"{row['must']:g}{worst}; {row['aim']:g}", number(cells[key][6]["floor"], 2), *(score_cell(laws[law][key]) for law in ("mu(I), a table", "axes remember")),
+                     *(judged(cells[key].get(rpm)) for rpm in shown)])
     return table(["", "must; aim", "noise floor, 6 rpm", "mu(I) alone, 6 rpm", "memory of the axes, 6 rpm", *head], rows)
 
 
 def scores():
-    """Continua at 6 rpm as `drumlin score` judges them."""
-    laws = read("memory/scores-6rpm.json")["laws"]
-    found = {name: {(row["quantity"], row["where"], row["zone"]): row for row in entry["score"]["rows"] if row["registered_by"] == "axis"}
-             for name, entry in laws.items()}
-    rows = [[name, *(judged({"value": rows[key]["error"], "met": rows[key]["met"]}) for rows in found.values())] for key, name in ROWS.items()]
-    rows.append(["met, of 14", *(str(sum(bool(rows[key]["met"]) for key in ROWS)) for rows in found.values())])
-    return table(["", *found], rows)
+    laws = scored()
+    rows = [[name, *(score_cell(found[key]) for found in laws.values())] for key, name in ROWS.items()]
+    rows.append(["met, of 14", *(str(sum(bool(found[key]["met"]) for key in ROWS)) for found in laws.values())])
+    return table(["", *laws], rows)
 
 
 def sizes():
