@@ -38,7 +38,11 @@ install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTER
 # Made by the program that is installed.
 install(CODE [[
   set(program $ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/bin/drumlin)
-  foreach(page IN ITEMS "--man|man/man1/drumlin.1" "--completion;bash|bash-completion/completions/drumlin" "--completion;zsh|zsh/site-functions/_drumlin"
+  set(zsh_folder site-functions)
+  if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")  # of a Debian package: the zsh there does not look into /usr/share/zsh/site-functions
+    set(zsh_folder vendor-completions)
+  endif()
+  foreach(page IN ITEMS "--man|man/man1/drumlin.1" "--completion;bash|bash-completion/completions/drumlin" "--completion;zsh|zsh/${zsh_folder}/_drumlin"
                         "--completion;fish|fish/vendor_completions.d/drumlin.fish")
     string(REPLACE "|" ";" parts "${page}")
     list(POP_BACK parts file)

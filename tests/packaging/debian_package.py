@@ -23,6 +23,8 @@ def main():
             require(needed in depends, f"the package does not depend on {needed}: {depends}")
         root = folder / "root"
         subprocess.run(["dpkg", "-x", packages[0], root], check=True)
+        for name in ("man/man1/drumlin.1", "bash-completion/completions/drumlin", "zsh/vendor-completions/_drumlin", "fish/vendor_completions.d/drumlin.fish"):
+            require((root / "usr/share" / name).exists(), f"{name} is not in the package")
         require_no_path(root, [build, sources])
         require_commands(root / "usr", folder, sources)
         run(root / "usr/bin/drumlin", "flow", root / "usr/share/drumlin/scenes/incline-flow.toml", "--rheology",
