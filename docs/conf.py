@@ -107,7 +107,7 @@ def cpp(made):
             page += f"\n## {folder}\n\n{links_within(holds[str(folder)], ROOT / 'docs')}\n\n"
             for header in (header for header in headers if header.parent == folder):
                 opening = re.match(r"#pragma once\n((?://.*\n)+)", (ROOT / header).read_text(encoding="utf-8"))[1].replace("\n//", "").removeprefix("// ")
-                page += f"- `{header.name}`: {re.split(r'(?<=[.:]) |  ', opening.strip())[0].rstrip('.:')}\n"
+                page += f"- `{header.name}`: {re.split(r'[.:]?(?:(?<=[.]) |  |$)', opening.strip())[0]}\n"
         own = [header for header in described if header.startswith(f"{library}/")]
         spaces = sorted({space for header in own for space in re.findall(r"^namespace (drumlin\S*) {", (ROOT / header).read_text(encoding="utf-8"), re.M)})
         (made / f"cpp/{library}.md").write_text(f"# drumlin/{library}\n\nNamespaces: {', '.join(spaces)}.\n" + "".join(
@@ -131,7 +131,7 @@ def links_within(text, here):
         if page:
             return f"{{doc}}`{words} </{page}>`"
         inside = file.is_relative_to(ROOT / "docs") and file.suffix in (".md", ".png", *([".ipynb"] if NOTEBOOKS else []))
-        return link[0] if inside else f"{words} (`{name}`)"
+        return link[0] if inside else f"`{name}`" if words == name else f"{words} (`{name}`)"
 
     return re.sub(r"(?<!!)\[([^\]\n]+)\]\(([^)\s]+)\)", plain, text)
 
