@@ -78,10 +78,10 @@ def newton(folder, flow):
     rows = result_files.read_rows(folder / "iterations.csv")
     if not rows:
         return None
-    figure, axes = plt.subplots(1, 3, figsize=(14.5, 4.8), gridspec_kw={"width_ratios": [3, 3, 2]})
+    figure, axes = plt.subplots(3, 1, figsize=(7.5, 11))
     for place, over_time in zip(axes, (False, True)):
         draw_convergence(place, rows, flow["settings"]["tolerance"], over_time)
-    axes[0].set_ylabel("residual / norm of the loads")
+        place.set_ylabel("residual / norm of the loads")
     axes[0].legend(loc="lower left", title="phase, each eps a line")
     work = flow["phases"]
     axes[2].barh(list(work), [part["seconds"] for part in work.values()], color=style.CONTINUUM)

@@ -42,6 +42,8 @@ class Frame:
         self.name = self.header["frame"]
         self.coordinate, self.columns = next(iter(columns)), columns
         dense = columns["nu"] > LEAST_SHARE * max(columns["nu"], default=0)
+        if dense.sum() > 1:  # a dense layer far from all others would stretch the axis
+            dense &= np.convolve(dense, [1, 0, 1], "same") > 0
         shown = np.flatnonzero(dense)
         kept = slice(shown[0], shown[-1] + 1) if shown.size else slice(0)
         self.at = columns[self.coordinate][kept]
@@ -98,9 +100,8 @@ def figure_of(file):
     known = [(label, logarithmic, {name: words for name, words in columns.items() if name in frame.columns})
              for label, logarithmic, columns in PANELS[frame.name]]
     known = [entry for entry in known if entry[2]]
-    rows = 1 if frame.name == "height" else 2  # heights stand side by side
-    count = math.ceil(len(known) / rows)
-    figure, panels = plt.subplots(rows, count, figsize=(4.2 * count, 6.4) if rows == 1 else (5.2 * count, 4.4 * rows), squeeze=False)
+    rows = math.ceil(len(known) / 2)
+    figure, panels = plt.subplots(rows, 2, figsize=(8.4, 3.8 * rows), squeeze=False)
     for axes in panels.flat[len(known):]:
         axes.remove()
     for axes, entry in zip(panels.flat, known):
