@@ -99,6 +99,18 @@ def five_seeds():
             f"theta {found['theta_deg']} deg.")
 
 
+def targets():
+    """Errors of the one ./reproduce, with memory and without."""
+    words = {"log10_shear_rate": "log10 shear rate", "axis_angle_deg": "axes (deg)", "theta_deg": "theta (deg)", "H": "H (d)"}
+    zones = {"static": ", bed", "flowing": ", flow", "all": "", None: ""}
+    rows = []
+    for target in read("cost/drum-6rpm.json")["comparison"]["targets"]:
+        floor = f" ({number(target['noise_floor'], 2)})" if target["judged_by"] == "noise floor" else ""
+        rows.append([words.get(target["quantity"], target["quantity"]) + zones[target.get("zone")], f"{target['limit']:g}{floor}",
+                     *(judged({"value": side["value"], "met": side["outcome"] == "met"}) for side in (target, target["beside"]))])
+    return table(["", "limit (noise floor, where it judges)", "with memory", "mu(I) alone"], rows)
+
+
 def verdicts():
     rows = paper_rows()
     count = {word: sum(row[4] == word for row in rows) for word in ("agrees", "open", "near", "differs", "imposed")}
@@ -329,6 +341,7 @@ def second_variable():
 
 TABLES = {
     "headline": headline,
+    "targets": targets,
     "verdicts": verdicts,
     "entries that differ": paper_differs,
     "definitions of H": depths,
