@@ -73,7 +73,7 @@ void add_compare_options(CLI::App& command, CompareOptions& options, CompareStud
   command
       .add_option("--floor", options.floor,
                   "Another run of the same scene, from other random numbers: its errors against RUN are the "
-                  "noise floor that stands beside every error")
+                  "noise floor that appears beside every error")
       ->type_name("RUN2");
   command
       .add_option("--beside", options.beside,

@@ -111,7 +111,7 @@ void add_plot_options(CLI::App& command, PlotOptions& options) {
   command.add_flag("--player", options.player,
                    "Writes player.html as well: one file in which the run plays, in any browser");
   add_number(command, "--every", options.every, "", at_least(1, 1000000),
-             "Every so manieth snapshot is a frame of the animation and of the player; without these each of "
+             "Every N-th snapshot is a frame of the animation and of the player; without these each of "
              "them is a still of its own");
   command
       .add_option("--color", options.color,

@@ -52,7 +52,7 @@ Json mesh_limit_json(const std::vector<continuum::MeshResult>& meshes) {
 // Why there is no mesh_change: null says that nothing was computed, not that nothing changed.
 Json mesh_change_missing(const FinishedFlow& flow) {
   if (flow.meshes.size() > 1) return nullptr;
-  if (flow.asked.scene.time) return "a march stays on one mesh";
+  if (flow.asked.scene.time) return "a transient run stays on one mesh";
   if (flow.asked.scene.mesh.levels == 1) return "the scene has one mesh";
   return "started on the last mesh from another flow: no coarser one was solved";
 }

@@ -94,7 +94,7 @@ FlowRequest read_request(const FlowOptions& options) {
   if (options.law_draws > 0 && asked.scene.effects.memory)
     throw InputError({InputProblem{.file = options.scene.string(),
                                    .key = "effects.memory",
-                                   .what = "has no draws of its law's points, which --law-draws asks for",
+                                   .what = "has no draws of its law's points, which --law-draws requires",
                                    .allowed = "absent, or no --law-draws"}});
   asked.flow_case = case_of(options.scene, asked.scene, asked.law);
   if (options.from) {

@@ -59,7 +59,7 @@ std::string neglected_text(const FinishedFlow& flow) {
   std::string text = fmt::format(
       "neglected: {}inertia {:.2g} of gravity (rms; at most {:.2g}), {}a surface that would rise by {:.2g} d "
       "(rms), {}"
-      "a wall share of {:.2g} that asks for friction above 0.95",
+      "a wall share of {:.2g} that requires friction above 0.95",
       has_inertia(flow.asked.scene) ? "not " : "", rest.inertia_rms, rest.inertia_largest,
       effects.moving_surface ? "not " : "", rest.surface_height_rms, effects.wall_slip ? "not " : "",
       rest.wall_friction);

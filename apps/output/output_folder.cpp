@@ -165,8 +165,7 @@ void set_aside(const fs::path& folder, const std::vector<std::string>& known) {
   const Manifest old = read_manifest(folder);
   if (!has_manifest(aside)) {
     if (fs::exists(aside) && !(fs::is_directory(aside) && holds_nothing(aside)))
-      throw InputError(aside.string() +
-                       ": stands where the old results are to wait for the new ones; move it");
+      throw InputError(aside.string() + ": lies where the old results are to wait for the new ones; move it");
     make_folders(aside);
     write_manifest(aside, old);
   }
@@ -247,8 +246,7 @@ void StagedOutput::publish() {
   for (const auto& [name, entry] : manifest.files) {
     const fs::path there = request_.folder / name;
     if (fs::exists(fs::symlink_status(there)) && !old.files.contains(name))
-      throw InputError(there.string() +
-                       ": is not of this program and stands where a result is to go; move it");
+      throw InputError(there.string() + ": is not of this program and lies where a result is to go; move it");
     force_to_disk(staging_ / name);
   }
   write_manifest(staging_, manifest);

@@ -91,7 +91,7 @@ Spread spread(const FlowProblem& problem, const Discretisation& d, const ScalarF
     if (!lines.is_constrained(i)) positive = positive && found.g[i] > 0;
   if (d.sum(positive ? 0 : 1) > 0)
     throw NotConvergedError(
-        "the nonlocal fluidity is not positive everywhere: its length asks for a finer mesh");
+        "the nonlocal fluidity is not positive everywhere: its length requires a finer mesh");
   return found;
 }
 

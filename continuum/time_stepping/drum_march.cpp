@@ -81,7 +81,7 @@ FlowSolution march_drum(const DrumMarch& plan, const MarchObserver& observer) {
   };
 
   FlowSolution whole{FlowReport{}, first_field(plan, last.problem)};
-  whole.report.start = "march from " + plan.start_name;
+  whole.report.start = "transient run from " + plan.start_name;
   while (kept.steps < plan.time.steps) {
     march.first = kept.steps;
     march.steps = std::min(plan.time.every, plan.time.steps - kept.steps);

@@ -169,7 +169,7 @@ void tell_of_coefficients(const MemoryCalibration& found, std::vector<std::strin
                       pairs[pair], free.correlation[pair]));
   if (free.law.m > 1)
     untold.push_back(
-        fmt::format("m: {:.2f} +- {:.2f} is asked for; a law whose stress does no negative work has m <= 1, "
+        fmt::format("m: {:.2f} +- {:.2f} fits best; a law whose stress does no negative work has m <= 1, "
                     "which is held (cost {:+.1f} %)",
                     free.law.m, free.ci99_sectors[memory_m], 100 * (found.bounded.cost / free.cost - 1)));
 }
@@ -186,8 +186,8 @@ void tell_of_trials(const MemoryCalibration& found, std::vector<std::string>& un
         "flow needs one");
   } else {
     alike_rho.pop_back();
-    untold.push_back(fmt::format("c_rho: not told from rho at once with 99 %:{}; {:g} is taken", alike_rho,
-                                 *found.law.c_rho));
+    untold.push_back(fmt::format("c_rho: not distinguished from rho at once with 99 %:{}; {:g} is taken",
+                                 alike_rho, *found.law.c_rho));
   }
   const LeadTrial& best = best_of(found.leads);
   std::string alike;

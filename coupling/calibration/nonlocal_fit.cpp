@@ -163,8 +163,8 @@ std::vector<std::string> what_is_untold(const NonlocalFit& fit) {
                     "{:.4f}: the runs do not ask for one",
                     fit.local_rms_bed, fit.rms_bed));
   if (!fit.is_told())
-    untold.push_back(fmt::format("a length: A = {:.2f} is not told from 0, and the law is left without one",
-                                 law.amplitude));
+    untold.push_back(fmt::format(
+        "a length: A = {:.2f} is not distinguished from 0, and the law is left without one", law.amplitude));
   untold.push_back(
       fmt::format("what stops flow: a threshold asks lap g/g to fall in a line as |s|/p rises to mu_s; their "
                   "correlation in the bed is {:+.2f}",

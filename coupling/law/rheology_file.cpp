@@ -160,7 +160,7 @@ template <class Visitor>
 void describe(Visitor& v, NonlocalTable& t) {
   v.value("amplitude", t.law.amplitude,
           required("", above(0, 100), "A of the length A d/sqrt|mu - mu_s| over which flow spreads."));
-  v.value("mu_s", t.law.mu_s, required("", friction_range, "Friction below which the local law stands."));
+  v.value("mu_s", t.law.mu_s, required("", friction_range, "Friction below which the local law holds."));
   v.value("amplitude_ci99", t.law.amplitude_ci99,
           when_given("", at_least(0, 100), "Half width of its 99 % interval."));
   v.value("mu_s_ci99", t.law.mu_s_ci99, when_given("", at_least(0, 10), "Half width of its 99 % interval."));
@@ -272,7 +272,7 @@ void check_points(const FrictionTable& mu, const std::string& table, Faults& fau
     const std::string place = "from entry " + std::to_string(i) + " to " + std::to_string(i + 1) + ", ";
     if (mu.mu[i] < mu.mu[i - 1]) return faults.refuse(mu_key, place + falling, "growing");
     if (mu.mu[i] == mu.mu[i - 1])
-      return faults.refuse(mu_key, place + "mu stands still: the law would not say how fast its flow is",
+      return faults.refuse(mu_key, place + "mu does not change: the law would not say how fast its flow is",
                            "growing");
   }
 }

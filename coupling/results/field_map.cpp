@@ -41,7 +41,7 @@ std::string fault_of(const FieldMap& map) {
   for (const MapField& field : map.fields) {
     if (field.name.empty() || field.name.find_first_not_of(name_letters) != std::string::npos)
       return fmt::format("\"{}\" cannot name a field: letters, digits and _ can", field.name);
-    if (!names.insert(field.name).second) return fmt::format("{} stands twice", field.name);
+    if (!names.insert(field.name).second) return fmt::format("{} appears twice", field.name);
     if (field.value.size() != grid.nodes() || (!field.ci99.empty() && field.ci99.size() != grid.nodes()))
       return fmt::format("{} has another length than the {} x {} nodes of the grid", field.name, grid.rows,
                          grid.columns);

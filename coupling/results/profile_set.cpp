@@ -39,7 +39,7 @@ void check_writable(const std::filesystem::path& file, const ProfileSet& profile
     if (column.name.empty() || names_interval(column.name) ||
         column.name.find_first_of(", \t\n#") != std::string::npos)
       refuse(column.name, "cannot name a column", "a word that does not end in _ci99");
-    if (!names.insert(column.name).second) refuse(column.name, "stands twice", "once");
+    if (!names.insert(column.name).second) refuse(column.name, "appears twice", "once");
     if (column.value.size() != profiles.z.size() ||
         (!column.ci99.empty() && column.ci99.size() != profiles.z.size()))
       refuse(column.name, "has another length than z", fmt::format("{} entries", profiles.z.size()));
@@ -91,7 +91,8 @@ class ProfileReader {
     if (names.front() != "z") refuse(names.front(), "is not the first column", "z");
     std::set<std::string_view> seen{"z"};
     for (std::size_t i = 1; i < names.size(); ++i) {
-      if (names[i].empty() || !seen.insert(names[i]).second) refuse(names[i], "is empty or stands twice", "");
+      if (names[i].empty() || !seen.insert(names[i]).second)
+        refuse(names[i], "is empty or appears twice", "");
       if (!names_interval(names[i])) {
         profiles_.columns.push_back({std::string(names[i]), {}, {}});
         is_interval_.push_back(false);

@@ -149,7 +149,7 @@ std::string fault_of(const RunHeader& header) {
   });
   for (const auto& [key, text] : header.further)
     visit_keys(header, [&, &key = key](const char* name, const auto&) {
-      if (key == name) fault = fmt::format("{} stands twice in the header", key);
+      if (key == name) fault = fmt::format("{} appears twice in the header", key);
     });
   return fault;
 }
@@ -166,7 +166,7 @@ RunHeader read_header(const std::vector<HeaderLine>& lines, const std::string& f
       continue;
     }
     if (!keys.insert(key).second) {
-      problems.push_back({file, line.line, 0, key, "stands twice", "each key once"});
+      problems.push_back({file, line.line, 0, key, "appears twice", "each key once"});
       continue;
     }
     const std::string_view text = trimmed(line.text.substr(equals + 1));

@@ -82,7 +82,7 @@ struct HeaderLine {
   std::string_view text;
 };
 /// Throws InputError with file, line, key, value and what is allowed, all faults at once: a line without "=",
-/// a key that stands twice, a number that is none (nan is one, inf is not), another side, another truth
+/// a key that appears twice, a number that is none (nan is one, inf is not), another side, another truth
 /// value.
 RunHeader read_header(const std::vector<HeaderLine>& lines, const std::string& file);
 

@@ -173,7 +173,7 @@ class CsvFrames {
         target.column = &column;
         target.in_si = !suffix.empty() && name != column.name;
         for (const Target& other : targets_)
-          if (other.column == &column) reader_->refuse(name, "stands twice", "one column for each quantity");
+          if (other.column == &column) reader_->refuse(name, "appears twice", "one column for each quantity");
         if (column.quantity == Quantity::time) time_ = static_cast<int>(targets_.size());
       }
       if (!target.column) notes_.unused_columns.insert(name);

@@ -19,7 +19,7 @@ void check_together(const ImportDescription& description, const Document& docume
     problems.push_back(problem_at(document, key, what, allowed));
   };
   if (description.drum && description.periodic_x)
-    refuse("periodic_x", "stands beside a drum", "one of the two");
+    refuse("periodic_x", "appears beside a drum", "one of the two");
   const auto* lammps = std::get_if<LammpsSource>(&description.source);
   const auto& grains = lammps ? lammps->grains : std::get<CsvSource>(description.source).grains;
   if (grains.empty()) refuse(lammps ? "lammps.grains" : "csv.grains", "names no file", "at least one");
@@ -27,7 +27,7 @@ void check_together(const ImportDescription& description, const Document& docume
     refuse("grains.velocities", "is displacements of grains that come and go",
            "given, or may_change = false");
   if (const auto* csv = std::get_if<CsvSource>(&description.source); csv && !csv->heading.empty()) {
-    if (csv->columns.empty()) refuse("csv.heading", "stands without columns", "csv.columns beside it");
+    if (csv->columns.empty()) refuse("csv.heading", "appears without columns", "csv.columns beside it");
     if (std::count(csv->heading.begin(), csv->heading.end(), "count") != 1)
       refuse("csv.heading", "does not say how many grains follow", "\"count\" once among its names");
   }

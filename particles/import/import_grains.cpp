@@ -38,7 +38,7 @@ Rows rows_of(const FrameTable& table, const ImportDescription& description) {
   for (std::size_t g = 1; g < rows.grains.size(); ++g)
     if (rows.id[rows.grains[g]] == rows.id[rows.grains[g - 1]])
       table.refuse(std::max(rows.grains[g], rows.grains[g - 1]), table.word("id"),
-                   fmt::format("{} stands twice in one snapshot", rows.id[rows.grains[g]]));
+                   fmt::format("{} appears twice in one snapshot", rows.id[rows.grains[g]]));
   if (rows.grains.empty()) table.refuse(0, "", "there are no grains");
   return rows;
 }

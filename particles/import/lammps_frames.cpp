@@ -160,7 +160,7 @@ class LammpsFrames {
   }
 
   void require_first(bool first, const std::string& item) const {
-    if (!first) reader_->refuse(item, "stands a second time in this frame", "once in each frame");
+    if (!first) reader_->refuse(item, "appears a second time in this frame", "once in each frame");
   }
 
   [[noreturn]] void refuse_end(const std::string& item, const std::string& what,

@@ -56,7 +56,7 @@ std::vector<ListedGrain> listed(const ListedGrains& list) {
       }
       for (const auto& column : names)
         if (std::count(names.begin(), names.end(), column) > 1)
-          problems.push_back({name, number, 0, column, "stands more than once", ""});
+          problems.push_back({name, number, 0, column, "appears more than once", ""});
       for (std::size_t needed = 0; needed < needed_columns; ++needed)
         if (std::find(names.begin(), names.end(), columns[needed]) == names.end())
           problems.push_back({name, number, 0, columns[needed], "missing column", ""});

@@ -272,7 +272,7 @@ void check_capture(const Scene& scene, Faults& faults) {
   const std::string key = "solver.capture_unconverged";
   if (scene.solver.capture_unconverged > 0 && moves_walls_by_force(scene))
     faults.push_back({key,
-                      "asks for contact problems with walls moved by a force, which their files cannot hold",
+                      "requires contact problems with walls moved by a force, which their files cannot hold",
                       "0, or no motion of kind force",
                       {key, "stages"}});
 }

@@ -35,7 +35,7 @@ void check_company(const Scene& scene, Faults& faults) {
     faults.push_back({key, what, allowed, {"periodic_z", key}});
   };
   if (!scene.periodic_x)
-    refuse("periodic_z", "stands without periodic_x", "together with periodic_x: a cell without walls");
+    refuse("periodic_z", "appears without periodic_x", "together with periodic_x: a cell without walls");
   if (!scene.walls.empty())
     refuse("walls", "stand in a cell that is periodic in x and z", "none, or a scene without periodic_z");
   if (scene.effects.gravity)
@@ -84,7 +84,7 @@ void check_cell(const Scene& scene, Faults& faults) {
   if (!presses_cell(scene)) return;
   if (scene.solver.capture_unconverged > 0)
     faults.push_back({"solver.capture_unconverged",
-                      "asks for contact problems of a cell under pressure, which their files cannot hold",
+                      "requires contact problems of a cell under pressure, which their files cannot hold",
                       "0, or rates in place of pressures",
                       {"solver.capture_unconverged"}});
 }

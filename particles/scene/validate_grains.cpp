@@ -192,7 +192,7 @@ void check_group(const Scene& scene, std::size_t g, std::set<std::string>& names
   const std::string key = fmt::format("grains.groups.{}.", g);
   if (!names.insert(group.name).second)
     faults.push_back(
-        {key + "name", fmt::format("\"{}\" stands twice", group.name), "a name of its own", {key + "name"}});
+        {key + "name", fmt::format("\"{}\" appears twice", group.name), "a name of its own", {key + "name"}});
   const auto& materials = scene.grains.materials;
   const auto known = [&](const GrainMaterial& m) { return group.material && m.name == *group.material; };
   if (group.material && std::none_of(materials.begin(), materials.end(), known))

@@ -52,7 +52,7 @@ void check_materials(const Scene& scene, std::vector<SceneFault>& faults) {
   for (std::size_t m = 0; m < scene.grains.materials.size(); ++m)
     if (const auto& name = scene.grains.materials[m].name; !names.insert(name).second)
       faults.push_back({fmt::format("{}.{}.name", key, m),
-                        fmt::format("\"{}\" stands twice", name),
+                        fmt::format("\"{}\" appears twice", name),
                         "a name of its own",
                         {key}});
   if (material_names(scene).size() > most_materials)

@@ -12,7 +12,7 @@ void check_field(const std::string& name, const std::string& key, std::vector<Sc
 void check_name(const std::string& name, const std::string& key, std::set<std::string>& names,
                 std::vector<SceneFault>& faults) {
   if (!names.insert(name).second)
-    faults.push_back({key, fmt::format("\"{}\" stands twice", name), "a name of its own", {key}});
+    faults.push_back({key, fmt::format("\"{}\" appears twice", name), "a name of its own", {key}});
   check_field(name, key, faults);
 }
 

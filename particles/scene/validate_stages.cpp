@@ -166,7 +166,7 @@ void check_stage_changes(const Scene& scene, Faults& faults) {
       check_arc(*arc, scene.walls[w].rough.has_value(), fmt::format("walls.{}", w), faults);
   if (scene.output.walls_every_s && scene.effects.rotating_frame)
     faults.push_back({"output.walls_every_s",
-                      "asks for loads in a rotating frame",
+                      "requires loads in a rotating frame",
                       "a scene without effects.rotating_frame",
                       {"output.walls_every_s", "effects.rotating_frame"}});
 }

@@ -31,11 +31,11 @@ std::optional<double> duration_of(std::int64_t steps, double step) {
 
 void refuse_what_cannot_go_on(const Scene& scene, const TimePlan& plan, const SimulationState& state) {
   const Stage& last = scene.stages.back();
-  if (state.step != plan.steps) refuse("asks for more of a run that is not finished", "a finished run");
+  if (state.step != plan.steps) refuse("requires more of a run that is not finished", "a finished run");
   if (last.until)
-    refuse("asks for more of a stage that ends when something has happened", "one without until");
+    refuse("requires more of a stage that ends when something has happened", "one without until");
   if (last.gravity && last.gravity->ramp)
-    refuse("asks for more of a stage whose gravity follows a ramp", "one without a ramp");
+    refuse("requires more of a stage whose gravity follows a ramp", "one without a ramp");
 }
 
 /// What stays in the folder must be a scene: every later command reads it.
@@ -87,7 +87,7 @@ Scene prolonged(const Scene& scene, double seconds, SimulationState& state) {
   if (!same) refuse("would move the snapshots that the run has", "a stage whose snapshots are evenly spread");
   if (scene.output.velocity_window_s > 0 && now.snapshot_steps.size() > plan.snapshot_steps.size() &&
       now.snapshot_steps[plan.snapshot_steps.size()] < plan.steps + window)
-    refuse("asks for a snapshot whose velocity window began before the end of the run",
+    refuse("requires a snapshot whose velocity window began before the end of the run",
            "intervals between snapshots longer than output.velocity_window_s");
   refuse_what_nothing_reads(longer);
   return longer;

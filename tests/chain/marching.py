@@ -42,7 +42,7 @@ def main():
         require([row["step"] for row in rows] == list("123456"), "not one line per step")
         require([round(float(row["rotation_rpm"]), 6) for row in rows] == [7.5, 15, 15, 15, 15, 15], "the drum does not speed up as asked")
         flow = read_json(whole / "flow.json")
-        require(flow["start"] == "march from rest" and flow["time"]["steps"] == 6, "flow.json does not tell of the march")
+        require(flow["start"] == "transient run from rest" and flow["time"]["steps"] == 6, "flow.json does not tell of the march")
         require(flow["sensitivity"] is None and flow["mesh_change_missing"], "a march says nothing of meshes and settings")
         require(not (whole / "checkpoint.h5").exists() and (whole / "series.png").exists(), "a kept state or no figure is left")
         drumlin(*march, "-o", whole, "--resume")

@@ -1,4 +1,4 @@
-"""README and the pages of results show what the files in data/ say: their tables, and every relative link; the glossary is that of the pages.
+"""README and the pages of results show what the files in data/ say: their tables, and every relative link; the glossary is that of the pages and messages.
 
 usage: results.py SOURCE_DIR
 """
@@ -69,7 +69,19 @@ def check_the_glossary():
     assert len(terms) > 50 and not unused and not dropped, (unused, dropped)
 
 
+def check_the_messages():
+    """No text that a program prints uses a word that was dropped; "march" is a value of flow.json."""
+    dropped = re.compile(r"\b(?:stands?(?! for)|asks? for|asked for|manieth|not told|hangs on|marche[sd]|marching)\b")
+    found = []
+    for folder in ("apps", "coupling", "continuum", "particles"):
+        for source in sorted(path for path in (SOURCE / folder).rglob("*") if path.suffix in (".cpp", ".hpp")):
+            code = re.sub(r"^\s*//.*$", "", source.read_text(), flags=re.MULTILINE)
+            found += [f"{source.relative_to(SOURCE)}: {text}" for text in re.findall(r'"((?:[^"\\\n]|\\.)*)"', code) if dropped.search(text)]
+    assert not found, found
+
+
 check_the_tables()
+check_the_messages()
 check_that_a_changed_number_is_found()
 check_links()
 check_the_glossary()

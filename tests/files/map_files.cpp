@@ -141,7 +141,7 @@ TEST(MapFile, WhatCouldNotBeReadBackIsNotWritten) {
   refused("nowhere", [](FieldMap& map) { map.grid.z_first = nan; });
   refused("k has another length", [](FieldMap& map) { map.fields[1].value.pop_back(); });
   refused("nu has another length", [](FieldMap& map) { map.fields[0].ci99.pop_back(); });
-  refused("nu stands twice", [](FieldMap& map) { map.fields[1].name = "nu"; });
+  refused("nu appears twice", [](FieldMap& map) { map.fields[1].name = "nu"; });
   refused("\"a/b\"", [](FieldMap& map) { map.fields[0].name = "a/b"; });
   refused("infinite", [](FieldMap& map) { map.fields[0].value[2] = HUGE_VAL; });
   refused("header", [](FieldMap& map) { map.header.further["a=b"] = "c"; });

@@ -230,7 +230,7 @@ def test_the_study_of_particles_leaves_table_page_and_figures_and_names_an_unste
 
 
 @pytest.mark.parametrize("change, words", [
-    ({"linear_share": 0.5}, "settings.linear_share: 0.5, but 0.3 in rpm-6"), ({"scene": "[effects\n"}, "scene.toml:1"), ({"name": "rpm-6"}, "stands twice")])
+    ({"linear_share": 0.5}, "settings.linear_share: 0.5, but 0.3 in rpm-6"), ({"scene": "[effects\n"}, "scene.toml:1"), ({"name": "rpm-6"}, "appears twice")])
 def test_runs_of_other_settings_are_refused_and_leave_nothing(tmp_path, change, words):
     six, other = write_run(tmp_path, drum_run(6)), write_run(tmp_path / "other", drum_run(2), **change)
     with pytest.raises(drumlin.InputError, match=words):

@@ -64,7 +64,7 @@ def _units(path, line, names, scales):
         kind = known.get(name)
         units = {"1": scales[kind]} | UNITS[kind] if kind else {}
         if kind is None or name in [one for one, _ in found]:
-            problems.append((f"{path}:{line}:{i}", name, "is no column of fields, or stands twice", ", ".join(known)))
+            problems.append((f"{path}:{line}:{i}", name, "is no column of fields, or appears twice", ", ".join(known)))
         elif unit not in units:
             problems.append((f"{path}:{line}:{i}", name, f'has the unit "{unit}"', ", ".join(f"{name} ({one})" for one in units)))
         else:

@@ -230,7 +230,7 @@ def require_one_study(runs):
     problems, names = [], [run.name for run in runs]
     for i, run in enumerate(runs):
         if run.name in names[:i]:
-            problems.append((run.name, "", "stands twice in this study", "each run once"))
+            problems.append((run.name, "", "appears twice in this study", "each run once"))
         if not run.rotation_rpm > 0:
             problems.append((run.name, "rotation", "the drum stands still", "a drum that turns"))
     keys = sorted({key for run in runs for key in run.identity})

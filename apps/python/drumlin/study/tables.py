@@ -61,7 +61,7 @@ def study_text(content):
             lines.append(f"  {'':28}   {key} = {value:.4g} +- {half:.2g}")
     for column, found in content["collapse"].items():
         if found["collapse"] is None:
-            ratio, limit, words = math.nan, math.nan, "not told, which takes runs of two speeds"
+            ratio, limit, words = math.nan, math.nan, "unknown: requires runs of two speeds"
         else:
             ratio, limit, words = found["ratio"], found["limit"], "one curve" if found["collapse"] else "not one curve"
         lines.append(f"  {column + '(I)':28} spread between speeds / intervals = {ratio:.2f} (limit {limit:.2f}): {words}")
