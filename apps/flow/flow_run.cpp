@@ -297,7 +297,7 @@ FinishedFlow finished_flow(const FlowOptions& options, const FlowRequest& asked,
 // Results that are there, but of no flow of these equations.
 void require_met(const fs::path& folder, const std::vector<std::string>& missed) {
   if (missed.empty()) return;
-  throw NotConvergedError(fmt::format("{}: the results stand, but are no flow of these equations:\n  {}",
+  throw NotConvergedError(fmt::format("{}: the results are kept, but are no flow of these equations:\n  {}",
                                       folder.string(), fmt::join(missed, "\n  ")));
 }
 

@@ -211,7 +211,7 @@ std::vector<std::string> what_is_untold(const MemoryCalibration& found, std::siz
   if (const std::size_t held = held_intervals(found.amount.form, found.amount.fit.law); held > 0)
     untold.push_back(
         fmt::format("|s|/p: {} of {} intervals of the table are as flat as a well-posed law can be; "
-                    "the points ask for less",
+                    "the points require less",
                     held, found.amount.form.knots.size() - 1));
   if (runs < 2) untold.push_back("one run alone: what differs from run to run is not known");
   if (*std::min_element(found.from_displacements.begin(), found.from_displacements.end()) < 0.3)
@@ -225,7 +225,7 @@ std::vector<std::string> what_is_untold(const MemoryCalibration& found, std::siz
 void refuse_what_no_law_has(const AmountMemory& law) {
   if (law.swelling > 0 && std::abs(law.lag) <= 1) return;
   throw InputError(fmt::format(
-      "--amount: the runs ask for a swelling of {:.3g} and a lag of {:.3g} (allowed: a swelling above 0, a "
+      "--amount: the runs show a swelling of {:.3g} and a lag of {:.3g} (allowed: a swelling above 0, a "
       "lag "
       "between -1 and 1): the amount of their stress does not remember as the law says; leave --amount out",
       law.swelling, law.lag));

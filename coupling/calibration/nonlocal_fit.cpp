@@ -160,7 +160,7 @@ std::vector<std::string> what_is_untold(const NonlocalFit& fit) {
   if (fit.rms_bed > (1 - told_apart_share) * fit.local_rms_bed)
     untold.push_back(
         fmt::format("a threshold: |s|/p that follows I in the bed leaves {:.4f} (rms), the best threshold "
-                    "{:.4f}: the runs do not ask for one",
+                    "{:.4f}: the runs do not require one",
                     fit.local_rms_bed, fit.rms_bed));
   if (!fit.is_told())
     untold.push_back(fmt::format(

@@ -179,8 +179,7 @@ Node& entry_of(Node& node, const std::string& step, const std::string& path) {
     return (*array)[*index];
   }
   auto* table = std::get_if<Node::Table>(&node.value);
-  if (!table)
-    throw fault(override_source, 0, 0, path, fmt::format("nothing can stand below at \"{}\"", step));
+  if (!table) throw fault(override_source, 0, 0, path, fmt::format("nothing can be below at \"{}\"", step));
   for (auto& [name, entry] : *table)
     if (name == step) return entry;
   table->push_back({step, Node{Node::Table{}, 0, 0}});

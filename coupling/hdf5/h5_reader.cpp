@@ -14,7 +14,7 @@
 namespace drumlin {
 namespace {
 
-constexpr const char* elsewhere = "a soft or external link (allowed: data that stand at this place)";
+constexpr const char* elsewhere = "a soft or external link (allowed: data at this position)";
 
 /// Hands HDF5 an image that the reader keeps: HDF5 would copy it twice. Nothing is ever written to it.
 H5FD_file_image_callbacks_t callbacks_for(std::string& bytes) {

@@ -141,7 +141,7 @@ std::string header_lines(const RunHeader& header, std::string_view prefix) {
 std::string fault_of(const RunHeader& header) {
   for (const auto& [key, text] : header_texts(header))
     if (key.empty() || key.find_first_of("=\n") != std::string::npos || text.find('\n') != std::string::npos)
-      return fmt::format("\"{}\" cannot stand in the header: one line, no = in the key", key);
+      return fmt::format("\"{}\" cannot be in the header: one line, no = in the key", key);
   std::string fault;
   visit_keys(header, [&]<class T>(const char* key, const std::optional<T>& member) {
     if constexpr (std::is_floating_point_v<T>)

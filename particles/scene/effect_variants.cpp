@@ -131,7 +131,7 @@ void toggle_walls(const Scene& scene, Variants& variants) {
     for (const Stage& stage : scene.stages)
       for (const WallMotion& motion : stage.motions)
         if (is_of_kind(motion)) {
-          variants.add(effect, EffectChange::removed, "the walls stand still", [&](Scene& s) {
+          variants.add(effect, EffectChange::removed, "the walls are at rest", [&](Scene& s) {
             for (Stage& changed : s.stages) std::erase_if(changed.motions, is_of_kind);
           });
           return;

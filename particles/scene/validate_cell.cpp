@@ -37,7 +37,7 @@ void check_company(const Scene& scene, Faults& faults) {
   if (!scene.periodic_x)
     refuse("periodic_z", "appears without periodic_x", "together with periodic_x: a cell without walls");
   if (!scene.walls.empty())
-    refuse("walls", "stand in a cell that is periodic in x and z", "none, or a scene without periodic_z");
+    refuse("walls", "are in a cell that is periodic in x and z", "none, or a scene without periodic_z");
   if (scene.effects.gravity)
     refuse("effects.gravity", "accelerates all grains of a cell that is periodic in x and z for ever",
            "absent: nothing there holds the grains");
@@ -46,9 +46,9 @@ void check_company(const Scene& scene, Faults& faults) {
       refuse(fmt::format("stages.{}.gravity", s),
              "accelerates all grains of a cell that is periodic in x and z for ever", "absent");
   if (!scene.outlets.empty())
-    refuse("outlets", "stand in a cell that is periodic in x and z", "none, or a scene without periodic_z");
+    refuse("outlets", "are in a cell that is periodic in x and z", "none, or a scene without periodic_z");
   if (!scene.sources.empty())
-    refuse("sources", "stand in a cell that is periodic in x and z", "none, or a scene without periodic_z");
+    refuse("sources", "are in a cell that is periodic in x and z", "none, or a scene without periodic_z");
 }
 
 void check_axis(const std::optional<CellAxis>& axis, const std::string& key, Faults& faults) {

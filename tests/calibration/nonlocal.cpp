@@ -71,7 +71,7 @@ TEST(NonlocalFit, PointsThatCreepByTheirIAloneAskForNoThreshold) {
   for (FluidityPoint& point : run.points) point.mu = known_amount_table().at(point.I).value + noise(random);
   const NonlocalFit fit = fit_nonlocal({&run, 1}, known_amount_table());
   ASSERT_FALSE(fit.untold.empty());
-  expect_has(fit.untold[0], "the runs do not ask for one");
+  expect_has(fit.untold[0], "the runs do not require one");
 }
 
 TEST(NonlocalFit, CurvatureOfExponentialDecayIsOneOverItsLengthSquared) {

@@ -50,7 +50,7 @@ std::string posedness_text(const coupling::Calibration& calibration) {
   std::string text;
   if (const std::size_t held = coupling::held_intervals(law.form, law.fit.law); held > 0)
     text = fmt::format(
-        "  {} of {} intervals of the table are as flat as a well-posed law can be: the points ask for less\n",
+        "  {} of {} intervals of the table are as flat as a well-posed law can be: the points require less\n",
         held, law.form.knots.size() - 1);
   if (calibration.ill_posed.empty()) return text + "  well-posed for every I from 1e-6 to 1 (simple shear)\n";
   text += "  ill-posed in simple shear for I";
