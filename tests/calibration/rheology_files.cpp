@@ -166,7 +166,7 @@ TEST(RheologyFile, AFrictionThatFallsWithIIsRefusedWithTheReason) {
                "falls with I: faster shear would meet less resistance");
   }
   const std::string level = with_mu("law = \"table\"\nI = [1e-3, 1e-2]\nmu = [0.3, 0.3]\n");
-  expect_has(message_of<InputError>([&] { (void)parse_rheology(level, "law.toml"); }), "stands still");
+  expect_has(message_of<InputError>([&] { (void)parse_rheology(level, "law.toml"); }), "does not change");
 }
 
 TEST(RheologyFile, FaultsAreNamedWithTheirPlace) {
