@@ -142,10 +142,11 @@ std::string accuracy_text(const FinishedFlow& flow) {
                        : "accuracy: estimated distance to the exact solution of the equations\n") +
          text;
   if (flow.sensitivities.empty())
-    text +=
-        "  (--set solver.sensitivity=true adds the errors by eps and iteration, --law-draws 8 the interval "
-        "by "
-        "the law's points: together about 1.5 times the time of the flow more)\n";
+    text += fmt::format(
+        "  (--set solver.sensitivity=true adds the errors by eps and iteration{}: up to 1.5 times the time "
+        "of the "
+        "flow more)\n",
+        flow.asked.scene.effects.memory ? "" : ", --law-draws 8 the interval by the law's points");
   for (const continuum::Halving& h : flow.accuracy.halvings)
     if (std::find(dominant.begin(), dominant.end(), h.source) != dominant.end())
       text += fmt::format(
