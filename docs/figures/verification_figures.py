@@ -42,8 +42,15 @@ def mesh_axes(axes, title, label):
     axes.legend(loc="upper left")
 
 
+def two_in_a_row(count, **shared):
+    figure, panels = plt.subplots(2, 2, figsize=(9, 8.4), **shared)
+    for axes in panels.flat[count:]:
+        axes.axis("off")
+    return figure, panels.flat
+
+
 def draw_orders(data, folder):
-    figure, panels = plt.subplots(1, 4, figsize=(18, 4.6), sharex=True, sharey=True)
+    figure, panels = two_in_a_row(4, sharex=True, sharey=True)
     for axes, (key, title) in zip(panels, MANUFACTURED.items()):
         rows = data[key]
         for (name, (label, slope)), color in zip(NAMES.items(), [style.PARTICLES, style.CONTINUUM, style.OTHERS[0]]):
@@ -52,13 +59,14 @@ def draw_orders(data, folder):
             if name != "pressure":  # its triangle would lie on the velocity
                 triangle(axes, rows, name, slope)
         mesh_axes(axes, title, "cell / side of the box")
-    panels[0].set_ylabel("error")
+    for axes in (panels[0], panels[2]):
+        axes.set_ylabel("error")
     panels[0].set_ylim(top=0.2)  # leaves room for the legends
     style.save(figure, folder / "verification-orders.png", False)
 
 
 def draw_gaps(data, folder):
-    figure, panels = plt.subplots(1, 3, figsize=(14, 4.6), sharey=True)
+    figure, panels = two_in_a_row(3, sharey=True)
     for axes, key, title in zip(panels, ("incline", "chute", "annulus"),
                                 ("Incline (Bagnold)", "Upright chute", "Annular Couette flow")):
         rows = data[key]
@@ -69,12 +77,13 @@ def draw_gaps(data, folder):
         triangle(axes, rows, "velocity", 3)
         axes.set_ylim(1e-7, 20)
         mesh_axes(axes, title, r"cell  [$d$]")
-    panels[0].set_ylabel(r"relative error of $v_x$, $L_2$")
+    for axes in (panels[0], panels[2]):
+        axes.set_ylabel(r"relative error of $v_x$, $L_2$")
     style.save(figure, folder / "verification-gaps.png", False)
 
 
 def draw_checks(data, folder):
-    figure, panels = plt.subplots(1, 3, figsize=(14, 4.6))
+    figure, panels = two_in_a_row(3)
     rows = data["tangent"]
     panels[0].loglog([row["h"] for row in rows], [row["error"] for row in rows], marker="o")
     panels[0].set_title("Tangent against differences")
@@ -87,7 +96,8 @@ def draw_checks(data, folder):
     for row in rows:
         panels[1].annotate(rf"$a={row['a']:g}$, $b={row['b']:g}$", (row["closed_form"], row["surface_speed"]),
                            xytext=(8, -10), textcoords="offset points", fontsize=10)
-    panels[1].set_xlim(6, 21.5)
+    panels[1].set_xlim(6, 22)
+    panels[1].margins(y=0.12)
     panels[1].set_title("Other laws: surface of an incline")
     panels[1].set_xlabel(r"closed form  [$\sqrt{gd}$]")
     panels[1].set_ylabel(r"finite elements  [$\sqrt{gd}$]")
@@ -97,7 +107,8 @@ def draw_checks(data, folder):
                         ("torque_relative_error", "torque, wall against weight")):
         panels[2].plot([row["cell"] for row in rows], [abs(row[name]) for row in rows], marker="o", label=label)
     mesh_axes(panels[2], "Balances of a small drum", r"cell  [$d$]")
-    panels[2].legend(loc="center left")
+    panels[2].set_ylim(bottom=1e-20)
+    panels[2].legend(loc="lower right")
     panels[2].set_ylabel("relative error")
     style.save(figure, folder / "verification-checks.png", False)
 
