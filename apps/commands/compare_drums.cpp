@@ -39,7 +39,8 @@ Json content_of(const ComparedRuns& runs, const coupling::Comparison& comparison
 
 // The other flow's errors beside those of the second side, judged as they are.
 void add_beside(Json& content, const LoadedSide& beside, const std::vector<coupling::Target>& targets) {
-  content["beside"] = {{"name", beside.name}, {"kind", beside.kind}, {"verdict", counts_of(targets)}};
+  content["beside"] = {
+      {"name", beside.name}, {"kind", name_of(beside.kind)}, {"verdict", counts_of(targets)}};
   for (std::size_t i = 0; i < targets.size(); ++i)
     content["targets"][i]["beside"] = {{"value", number_or_null(targets[i].value)},
                                        {"outcome", name_of(targets[i].outcome)}};

@@ -76,7 +76,8 @@ std::string title_of(const ComparedRuns& runs) {
 void add_origins(Json& content, const ComparedRuns& runs) {
   content["particles"] = origin_of(runs.first);
   content["continuum"] = origin_of(runs.second);
-  content["floor"] = runs.floor ? Json{{"name", runs.floor->name}, {"kind", runs.floor->kind}} : Json();
+  content["floor"] =
+      runs.floor ? Json{{"name", runs.floor->name}, {"kind", name_of(runs.floor->kind)}} : Json();
   content["provenance"] = to_json(provenance());
   std::vector<std::string> edits = runs.first.accepted;
   edits.insert(edits.end(), runs.second.accepted.begin(), runs.second.accepted.end());

@@ -143,9 +143,8 @@ std::string accuracy_text(const FinishedFlow& flow) {
          text;
   if (flow.sensitivities.empty())
     text += fmt::format(
-        "  (--set solver.sensitivity=true adds the errors by eps and iteration{}: up to 1.5 times the time "
-        "of the "
-        "flow more)\n",
+        "  (--set solver.sensitivity=true adds the errors by eps and iteration{}: up to 1.5 times "
+        "the time of the flow more)\n",
         flow.asked.scene.effects.memory ? "" : ", --law-draws 8 the interval by the law's points");
   for (const continuum::Halving& h : flow.accuracy.halvings)
     if (std::find(dominant.begin(), dominant.end(), h.source) != dominant.end())

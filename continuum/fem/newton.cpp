@@ -14,8 +14,7 @@
 namespace drumlin::continuum::fem {
 namespace {
 
-// A residual above the weight and so many times as large as the least so far: of some 2000 sequences that led
-// to a solution none went on from there, of those that led nowhere half of the steps came after it.
+// A residual above the weight and so many times as large as the least so far leads to no solution.
 constexpr double hopeless_growth = 10;
 
 // True relative residual of a solve that asks for no refinement: below every tolerance on the flow.
