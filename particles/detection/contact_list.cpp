@@ -18,23 +18,32 @@ struct ThinEnd {
   Point place, along, beyond;
 };
 
+/// Gap and normal of a disc against a straight line through a point.
+double gap_to_line(const Point& along, double dx, double dz, double radius, double& n_x, double& n_z) {
+  const double across = along.x * dz - along.z * dx, side = std::copysign(1.0, across);
+  n_x = -side * along.z, n_z = side * along.x;
+  return std::abs(across) - radius;
+}
+
 /// Gap and normal of a disc whose centre is nearest to an end. Where its centre is beside the wall that goes
-/// on, the end is no corner: this wall counts as its line where the joint is concave, and not at all where it
-/// is flat or convex, since there the other wall is nearer.
-double gap_to_end(const ThinEnd& end, double x, double z, double radius, double& n_x, double& n_z) {
+/// on, the end is no corner: within a concave joint, between the two walls, this wall counts as its line; at
+/// a flat or convex one the other wall is nearer.
+double gap_to_end(const ThinEnd& end, double x, double z, double radius, double& n_x, double& n_z,
+                  BesideNext beside_next) {
   const double dx = x - end.place.x, dz = z - end.place.z;
   const double gap = normal_of(dx, dz, n_x, n_z) - radius;
   if (!(dx * end.beyond.x + dz * end.beyond.z > 0)) return gap;
   constexpr double flat = 1e-9;
-  const double across = end.along.x * dz - end.along.z * dx, side = std::copysign(1.0, across);
-  if (side * (end.along.x * end.beyond.z - end.along.z * end.beyond.x) <= flat)
-    return std::numeric_limits<double>::infinity();
-  n_x = -side * end.along.z, n_z = side * end.along.x;
-  return std::abs(across) - radius;
+  const double side = std::copysign(1.0, end.along.x * dz - end.along.z * dx);
+  const bool concave = side * (end.along.x * end.beyond.z - end.along.z * end.beyond.x) > flat;
+  if (concave && side * (dx * end.beyond.z - dz * end.beyond.x) > 0)
+    return gap_to_line(end.along, dx, dz, radius, n_x, n_z);
+  if (beside_next == BesideNext::infinite) return std::numeric_limits<double>::infinity();
+  return gap_to_line(end.beyond, dx, dz, radius, n_x, n_z);
 }
 
 double gap_to_segment(const Segment& s, double x, double z, double radius, double& n_x, double& n_z,
-                      Point& point) {
+                      Point& point, BesideNext beside_next) {
   const double ex = s.to.x - s.from.x, ez = s.to.z - s.from.z, squared = ex * ex + ez * ez;
   const double along = ((x - s.from.x) * ex + (z - s.from.z) * ez) / squared;
   if (along < 0 || along > 1) {
@@ -42,7 +51,7 @@ double gap_to_segment(const Segment& s, double x, double z, double radius, doubl
     point = first ? s.from : s.to;
     const double unit = (first ? 1 : -1) / std::sqrt(squared);
     return gap_to_end({point, {unit * ex, unit * ez}, first ? s.beyond_from : s.beyond_to}, x, z, radius, n_x,
-                      n_z);
+                      n_z, beside_next);
   }
   point = {s.from.x + along * ex, s.from.z + along * ez};
   return normal_of(x - point.x, z - point.z, n_x, n_z) - radius;
@@ -143,17 +152,18 @@ double finest_cell(const GrainMotion& motion, double range) {
 }  // namespace
 
 double gap_to_shape(const Shape& shape, double x, double z, double radius, double& n_x, double& n_z,
-                    Point& point) {
+                    Point& point, BesideNext beside_next) {
   if (const auto* c = std::get_if<Container>(&shape)) {
     const double distance = normal_of(c->center.x - x, c->center.z - z, n_x, n_z);
     point = {c->center.x - c->radius * n_x, c->center.z - c->radius * n_z};
     return c->radius - radius - distance;
   }
-  if (const auto* s = std::get_if<Segment>(&shape)) return gap_to_segment(*s, x, z, radius, n_x, n_z, point);
+  if (const auto* s = std::get_if<Segment>(&shape))
+    return gap_to_segment(*s, x, z, radius, n_x, n_z, point, beside_next);
   if (const auto* a = std::get_if<Arc>(&shape)) {
     point = nearest_on(*a, {x, z});
     if (nearest_is_end(*a, {x, z}))
-      return gap_to_end({point, tangent_at_end(*a), a->beyond}, x, z, radius, n_x, n_z);
+      return gap_to_end({point, tangent_at_end(*a), a->beyond}, x, z, radius, n_x, n_z, beside_next);
     return normal_of(x - point.x, z - point.z, n_x, n_z) - radius;
   }
   const auto& disc = std::get<FixedDisc>(shape);

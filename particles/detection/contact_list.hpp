@@ -111,9 +111,14 @@ inline double normal_of(double dx, double dz, double& n_x, double& n_z) {
   return distance;
 }
 
+/// Gap of a thin wall to a disc beside the wall that goes on from it at a flat or convex joint: infinite
+/// where pairs are looked for, since the other wall has its own pair; that of the other wall's line on the
+/// path of a disc that comes there within a step, for which no search has found that pair.
+enum class BesideNext { infinite, line };
+
 /// Gap and normal of a disc and a shape; `point` receives the point of the shape that is nearest.
 double gap_to_shape(const Shape& shape, double x, double z, double radius, double& n_x, double& n_z,
-                    Point& point);
+                    Point& point, BesideNext beside_next = BesideNext::infinite);
 
 /// Gap of a candidate's pair at the positions of `bodies` and `shapes`, with the normal there.
 double gap_now(const Candidate& pair, const Bodies& bodies, std::span<const Shape> shapes,

@@ -46,15 +46,16 @@ std::optional<LoneStep> lone_step(const StepInput& step, const Candidate& pair, 
   LoneStep lone;
   for (int k = 0; k < iterations; ++k) {
     const Surfaces there = path.at_displacement(end), halfway = path.at_displacement({end.x / 2, end.z / 2});
-    if (!(there.n_x * start.n_x + there.n_z * start.n_z > sharpest) || !std::isfinite(there.gap) ||
-        !std::isfinite(halfway.gap))
-      return std::nullopt;
+    if (!(there.n_x * start.n_x + there.n_z * start.n_z > sharpest)) return std::nullopt;
     if (container) turn_wall_velocity(there, carried, surface);
     const Point wall{surface.wall_v_x, surface.wall_v_z};
     const double u_n = there.n_x * (free.x - carried.x) + there.n_z * (free.z - carried.z);
     const double u_t = there.n_z * (free.x - wall.x) - there.n_x * (free.z - wall.z) - rim;
     const Point p = impulses(halfway, there, u_n, u_t, mu, spins ? 2 : 0);
-    if (!(p.x > 0)) return LoneStep{};
+    if (!(p.x > 0)) {  // it leaves the wall, or hits an end from the side
+      if (there.gap < -near) return std::nullopt;
+      return LoneStep{};
+    }
     lone.n_x = halfway.n_x, lone.n_z = halfway.n_z, lone.normal = p.x, lone.tangential = p.z;
     const Point after{free.x + lone.n_x * p.x + lone.n_z * p.z, free.z + lone.n_z * p.x - lone.n_x * p.z};
     end = {h * ((v.x + after.x) / 2 - carried.x), h * ((v.z + after.z) / 2 - carried.z)};

@@ -101,7 +101,7 @@ Surfaces PairPath::at_displacement(const Point& d) const {
   Surfaces s;
   Point point;
   if (shape_) {
-    s.gap = gap_to_shape(*shape_, x, z, reach_, s.n_x, s.n_z, point);
+    s.gap = gap_to_shape(*shape_, x, z, reach_, s.n_x, s.n_z, point, BesideNext::line);
     return s;
   }
   const double distance = std::sqrt(x * x + z * z);

@@ -7,6 +7,7 @@
 
 #include "particles/bodies/arc.hpp"
 #include "particles/detection/contact_list.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -57,6 +58,55 @@ TEST(Joint, ThatIsConvexIsACornerBetweenTheNormalsAlone) {
     EXPECT_NEAR(t.gap, 0.1, 1e-15);
     EXPECT_NEAR(t.n_x, std::sin(half), 1e-15);
   }
+}
+
+TEST(Joint, ThatIsConcaveBehindTheOtherWallIsNotFeltThere) {
+  // The edge of a floor from which a wall leads back below it, as in the neck of an hourglass: the line of
+  // the wall goes on through the discs on the floor.
+  const auto [left, right] = joint(-2.2);
+  EXPECT_TRUE(std::isinf(touch(right, -0.2, 0.5).gap));
+  EXPECT_NEAR(touch(left, -0.2, 0.5).gap, 0, 1e-15);
+}
+
+/// Overlap of discs that come to a joint at 0.35 d a step, from many sides.
+struct FastDiscs {
+  double deepest = 0;          ///< of a disc and a wall, d
+  double largest_overlap = 0;  ///< as steps report it
+  int unknown_sinkings = 0;    ///< steps that report no number
+};
+FastDiscs fast_discs_at(double angle, double e) {
+  const double speed = 10, step = 0.035, far = 50;
+  const Point end{far * std::cos(angle), far * std::sin(angle)};
+  FastDiscs all;
+  for (int k = 0; k < 80; ++k) {
+    const double down = 0.05 + 0.18 * (k % 8), x = -1 + 0.2 * (k / 8);
+    const Point u{std::cos(down), -std::sin(down)};
+    Scene scene = test::scene_of({{x - 2.1 * u.x, 0.6 - 2.1 * u.z, 1, speed * u.x, speed * u.z}});
+    scene.walls = {{"wall", SegmentShape{{-far, 0}, {0, 0}}}, {"wall", SegmentShape{{0, 0}, {end.x, end.z}}}};
+    scene.effects.gravity = Gravity{};
+    if (e > 0) scene.effects.restitution = Restitution{e, e};
+    test::add_stage(scene, 20 * step, step);
+    Simulation simulation(scene);
+    while (!simulation.finished()) {
+      const StepReport report = simulation.step();
+      const Bodies& b = simulation.state().bodies;
+      for (const Segment& wall : {Segment{{-far, 0}, {0, 0}}, Segment{{0, 0}, end}})
+        all.deepest = std::max(all.deepest, -touch(wall, b.x[0], b.z[0]).gap);
+      all.largest_overlap = std::max(all.largest_overlap, report.overlap.max);
+      all.unknown_sinkings += std::isnan(report.solve.residual.sinking);
+    }
+  }
+  return all;
+}
+
+TEST(Joint, HoldsDiscsThatCrossItFast) {
+  for (const double angle : {0.0, -0.1, -0.5, -1.2, -2.2, 0.3})
+    for (const double e : {0.0, 0.1}) {
+      const FastDiscs all = fast_discs_at(angle, e);
+      EXPECT_LT(all.deepest, 1e-2) << angle << ", e = " << e;
+      EXPECT_LT(all.largest_overlap, 1e-2) << angle << ", e = " << e;
+      EXPECT_EQ(all.unknown_sinkings, 0) << angle << ", e = " << e;
+    }
 }
 
 TEST(Joint, OfAnArcAndItsTangentIsNoCorner) {
