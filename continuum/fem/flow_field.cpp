@@ -43,7 +43,8 @@ PlaneTensor strain_rate(const dealii::Tensor<2, 2>& g) {
 }
 
 fem::PointValues Values::at(unsigned int q) const {
-  return {.D = strain_rate(gradient[q]),
+  return {.motion = fem::motion_of(gradient[q]),
+          .D = strain_rate(gradient[q]),
           .divergence = gradient[q][0][0] + gradient[q][1][1],
           .p = pressure[q],
           .ln_fluidity = ln_fluidity.empty() ? 0 : ln_fluidity[q]};

@@ -88,7 +88,8 @@ class LaboratoryValues : public dealii::DataPostprocessor<2> {
       const PlaneTensor D{g[0][0], g[1][1], 0.5 * (g[0][1] + g[1][0])};
       const double p = u[2], rate = magnitude(D), y = has_fluidity ? u[fem::fluidity_component] : 0;
       const auto s =
-          fem::point_report(level_.problem, level_.setting, {.D = D, .p = p, .ln_fluidity = y}, held, q);
+          fem::point_report(level_.problem, level_.setting,
+                            {.motion = fem::motion_of(g), .D = D, .p = p, .ln_fluidity = y}, held, q);
       const PlaneTensor stress = laboratory_.turned(s.stress);
       const std::array<double, 16> values = {speed * (laboratory_.cosine * u[0] + laboratory_.sine * u[1]),
                                              speed * (laboratory_.cosine * u[1] - laboratory_.sine * u[0]),

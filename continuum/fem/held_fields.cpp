@@ -56,6 +56,13 @@ void add_memory(const FlowProblem& problem, const Discretisation& d, const State
                  added ? at_quadrature(*added, d) : std::vector<double>());
   held.at_quadrature.memory_weight = m;
   held.at_quadrature.followed_slope = law.amount ? followed_slope(*law.amount) : 0;
+  if (law.amount && law.amount->creep) {
+    held.at_quadrature.creep = *law.amount->creep;
+    const double frame = problem.frame ? problem.frame->rotation : 0;
+    for_each_point(d, state.solution, [&](const PointValues& at, std::size_t) {
+      held.at_quadrature.spin.push_back(spin_of(at.motion) + frame);
+    });
+  }
   held.axes = A;
   held.rho = rho;
   held.added = added;
@@ -138,6 +145,7 @@ HeldValues held_at(const HeldFields& held, const Discretisation& d, const MeshCe
                    held.added ? values_at(*held.added, cell, unit_points) : std::vector<double>());
     values.memory_weight = held.at_quadrature.memory_weight;
     values.followed_slope = held.at_quadrature.followed_slope;
+    values.creep = held.at_quadrature.creep;
   }
   return values;
 }

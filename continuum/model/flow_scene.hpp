@@ -60,8 +60,8 @@ struct FlowMesh {
   double refined_share = 1;
 };
 struct FlowBoundary {
-  double entrainment_length = 3;   ///< d
-  double surface_stiffness = 1e4;  ///< rho0 g
+  double entrainment_length = 3.8;  ///< d
+  double surface_stiffness = 1e4;   ///< rho0 g
 };
 struct FlowRegularisation {
   double shear_rate = 1e-5;  ///< 1/sqrt(d/g)

@@ -3,9 +3,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
+#include "coupling/calibration/bounded_least_squares.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/law/memory_law.hpp"
 #include "coupling/statistics/quantiles.hpp"
@@ -49,7 +51,7 @@ double lag_of(const StressPath& path, const MemoryLaw& law) {
   return axes_lag(law, 1, path.axis, carried_memory(path, axes), std::exp(path.ln_I));
 }
 
-/// Normal equations of the paths of one sector of the drum.
+/// Normal equations of the paths of one sector of the drum. Unknowns: those of a table, then three more.
 struct Sums {
   Matrix matrix;
   Vector right;
@@ -77,10 +79,19 @@ struct Sums {
   Sums without(const Sums& other) const {
     return {matrix - other.matrix, right - other.right, squares - other.squares, paths - other.paths};
   }
-  // The shortest one where a knot has no path, as without the only sector that has one.
-  Vector solution() const { return Eigen::CompleteOrthogonalDecomposition<Matrix>(matrix).solve(right); }
+  /// Of a table that grows, and a creep that lessens the friction. What no path tells of is nought.
+  Vector solution(const std::vector<double>& least) const {
+    NormalEquations equations(least.size());
+    Eigen::Map<Matrix> padded(equations.matrix.data(), matrix.rows(), matrix.cols());
+    padded = matrix;
+    padded.diagonal().array() += 1e-12 * matrix.diagonal().maxCoeff();
+    Eigen::Map<Vector>(equations.right.data(), right.size()) = right;
+    const std::vector<double> found = bounded_minimum(equations, least);
+    return Eigen::Map<const Vector>(found.data(), right.size());
+  }
   bool is_determined() const {
-    return Eigen::CompleteOrthogonalDecomposition<Matrix>(matrix).rank() == matrix.rows();
+    const auto told = (matrix.diagonal().array() > 0).count();
+    return Eigen::CompleteOrthogonalDecomposition<Matrix>(matrix).rank() == told;
   }
   double rms(const Vector& x) const {
     return std::sqrt(std::max(0.0, squares - 2 * x.dot(right) + x.dot(matrix * x)) /
@@ -88,18 +99,64 @@ struct Sums {
   }
 };
 
-/// Weights of the knots of a table at a place between them, straight in ln I, and room for two numbers more.
-Vector knot_weights(const std::vector<double>& knots, double ln_I) {
-  const auto last = static_cast<Eigen::Index>(knots.size()) - 1;
-  Vector row = Vector::Zero(last + 3);
-  Eigen::Index left = 0;
-  while (left + 1 < last && std::log(knots[static_cast<std::size_t>(left) + 1]) < ln_I) ++left;
-  const double from = std::log(knots[static_cast<std::size_t>(left)]),
-               to = std::log(knots[static_cast<std::size_t>(left) + 1]);
-  const double share = std::clamp((ln_I - from) / (to - from), 0.0, 1.0);
-  row[left] = 1 - share;
-  row[left + 1] = share;
+/// A table straight in ln I, whose unknowns are its first value and its growth from knot to knot, and room
+/// for three numbers more.
+Vector growth_weights(const std::vector<double>& knots, double ln_I) {
+  const auto count = static_cast<Eigen::Index>(knots.size());
+  Vector row = Vector::Zero(count + 3);
+  row[0] = 1;
+  for (Eigen::Index j = 1; j < count; ++j) {
+    const double from = std::log(knots[static_cast<std::size_t>(j) - 1]),
+                 to = std::log(knots[static_cast<std::size_t>(j)]);
+    row[j] = std::clamp((ln_I - from) / (to - from), 0.0, 1.0);
+  }
   return row;
+}
+
+/// Knots of mu(I) beside a creep: the first, which says from where on I is remembered, and those above the I
+/// that the paths have where creep begins, in the mean of its logarithm.
+std::vector<double> knots_above(std::span<const PathsOfRun> runs, std::vector<double> knots, double ratio) {
+  double sum = 0, count = 0;
+  for (const PathsOfRun& run : runs)
+    for (const StressPath& path : run.paths) {
+      if (!(path.spin_share > 0)) continue;
+      sum += path.ln_I + std::log(path.spin_share);
+      ++count;
+    }
+  const double begins = count > 0 ? ratio * std::exp(sum / count) : 0;
+  std::erase_if(knots, [&](double I) { return I > knots.front() && I < begins; });
+  return knots;
+}
+
+/// A path, and of its row in the normal equations what no trial of the rates changes: all but the dilatancy.
+struct Sample {
+  const StressPath* path;
+  Vector row;
+};
+
+/// What all trials with one ratio of creep share.
+struct Samples {
+  double creep_ratio = 0;
+  FrictionForm table;
+  std::vector<double> least;  // of the unknowns
+  std::vector<Sample> paths;
+};
+
+Samples samples_of(std::span<const PathsOfRun> runs, const MemoryLaw& axes, const FrictionForm& alone,
+                   double creep_ratio) {
+  Samples samples{creep_ratio, {FormKind::table, knots_above(runs, alone.knots, creep_ratio)}, {}, {}};
+  for (std::size_t j = 0; j < samples.table.size(); ++j)
+    samples.least.push_back(least_coefficient(samples.table, j));
+  const double any = -std::numeric_limits<double>::infinity();
+  samples.least.insert(samples.least.end(), {any, any, 0});
+  for (const PathsOfRun& run : runs)
+    for (const StressPath& path : run.paths) {
+      Vector row = growth_weights(samples.table.knots, path.ln_I);
+      row[row.size() - 2] = -lag_of(path, axes);
+      row[row.size() - 1] = creep_friction({1, creep_ratio}, 1, path.spin_share);
+      samples.paths.push_back({&path, std::move(row)});
+    }
+  return samples;
 }
 
 struct Trial {
@@ -109,59 +166,43 @@ struct Trial {
   Sums total;
 };
 
-/// A path, and of its row in the normal equations what no trial changes: all but the dilatancy.
-struct Sample {
-  const StressPath* path;
-  Vector row;
-};
-
-std::vector<Sample> samples_of(std::span<const PathsOfRun> runs, const MemoryLaw& axes,
-                               const std::vector<double>& knots) {
-  std::vector<Sample> samples;
-  for (const PathsOfRun& run : runs)
-    for (const StressPath& path : run.paths) {
-      Vector row = knot_weights(knots, path.ln_I);
-      row[row.size() - 1] = -lag_of(path, axes);
-      samples.push_back({&path, std::move(row)});
-    }
-  return samples;
-}
-
-/// `dilatancy` of a path: what its first coefficient beside the knots belongs to.
+/// `dilatancy` of a path: what its first coefficient beside the table belongs to.
 template <class Dilatancy>
-Trial tried(const std::vector<Sample>& samples, AmountTrial trial, Dilatancy dilatancy) {
-  Trial found{trial, {}, {}, {}};
-  for (const Sample& sample : samples) {
+Trial tried(const Samples& samples, double c_nu, double c_psi, Dilatancy dilatancy) {
+  Trial found{{c_nu, c_psi, samples.creep_ratio}, {}, {}, {}};
+  for (const Sample& sample : samples.paths) {
     Vector row = sample.row;
-    row[row.size() - 2] = dilatancy(*sample.path);
+    row[row.size() - 3] = dilatancy(*sample.path);
     found.sectors[sector_of(*sample.path)].add(row, std::abs(sample.path->stress));
   }
   for (const auto& [number, sums] : found.sectors) found.total += sums;
-  found.x = found.total.solution();
+  found.x = found.total.solution(samples.least);
   found.trial.rms = found.total.rms(found.x);
   return found;
 }
 
-std::array<double, 2> sector_intervals(const Trial& best) {
-  std::array<std::vector<double>, 2> without;
+std::array<double, 3> sector_intervals(const Trial& best, const std::vector<double>& least) {
+  std::array<std::vector<double>, 3> without;
   for (const auto& [number, sums] : best.sectors) {
-    const Vector x = best.total.without(sums).solution();
-    for (std::size_t j = 0; j < 2; ++j) without[j].push_back(x[x.size() - 2 + static_cast<Eigen::Index>(j)]);
+    const Vector x = best.total.without(sums).solution(least);
+    for (std::size_t j = 0; j < 3; ++j) without[j].push_back(x[x.size() - 3 + static_cast<Eigen::Index>(j)]);
   }
   const double factor = statistics::student_quantile_99(static_cast<int>(best.sectors.size()) - 1);
-  return {factor * std::sqrt(statistics::jackknife_variance(without[0])),
-          factor * std::sqrt(statistics::jackknife_variance(without[1]))};
+  std::array<double, 3> intervals;
+  for (std::size_t j = 0; j < 3; ++j)
+    intervals[j] = factor * std::sqrt(statistics::jackknife_variance(without[j]));
+  return intervals;
 }
 
 /// Nothing where the motion has no dilatation.
-std::optional<StressDilatancy> stress_dilatancy(const std::vector<Sample>& samples) {
+std::optional<StressDilatancy> stress_dilatancy(const Samples& samples) {
   std::optional<StressDilatancy> found;
   for (const double c_psi : {2.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0}) {
     const Trial now =
-        tried(samples, {0, c_psi, 0}, [&](const StressPath& path) { return seen_dilatancy(path, c_psi); });
-    if (!now.total.is_determined()) return {};
+        tried(samples, 0, c_psi, [&](const StressPath& path) { return seen_dilatancy(path, c_psi); });
+    if (!(now.total.matrix(now.x.size() - 3, now.x.size() - 3) > 0) || !now.total.is_determined()) return {};
     if (found && !(now.trial.rms < found->rms)) continue;
-    found = {c_psi, now.x[now.x.size() - 2], sector_intervals(now)[0], now.x[now.x.size() - 1],
+    found = {c_psi, now.x[now.x.size() - 3], sector_intervals(now, samples.least)[0], now.x[now.x.size() - 2],
              now.trial.rms};
   }
   return found;
@@ -193,29 +234,36 @@ std::vector<AmountScore> scores_of(std::span<const PathsOfRun> runs, const Memor
 double added_amount(const StressPath& path, const MemoryLaw& law) {
   const AmountMemory& amount = law.amount.value();
   return amount.swelling * felt_dilatancy(path, law, amount.c_nu, amount.c_psi) -
-         amount.lag * lag_of(path, law);
+         amount.lag * lag_of(path, law) +
+         (amount.creep ? creep_friction(*amount.creep, 1, path.spin_share) : 0);
 }
 
 AmountFit fit_amount(std::span<const PathsOfRun> runs, std::span<const PathsOfRun> held_out,
                      const MemoryLaw& axes, const CalibratedLaw& alone) {
-  const std::vector<double>& knots = alone.form.knots;
-  const std::vector<Sample> samples = samples_of(runs, axes, knots);
   AmountFit found;
   Trial best;
-  for (const double c_nu : {2.0, 3.0, 4.0, 6.0, 8.0})
-    for (const double c_psi : {8.0, 12.0, 16.0, 24.0, 32.0}) {
-      if (!(c_nu < c_psi)) continue;
-      Trial now = tried(samples, {c_nu, c_psi, 0},
-                        [&](const StressPath& path) { return felt_dilatancy(path, axes, c_nu, c_psi); });
-      if (!now.total.is_determined())
-        throw InputError(
-            "--amount: the paths do not determine what the past adds to the amount of the stress");
-      found.trials.push_back(now.trial);
-      if (best.sectors.empty() || now.trial.rms < best.trial.rms) best = std::move(now);
-    }
-  found.law = {best.x[best.x.size() - 2], best.trial.c_nu, best.trial.c_psi, best.x[best.x.size() - 1]};
-  found.ci99_sectors = sector_intervals(best);
-  found.measured = stress_dilatancy(samples);
+  Samples of_best;
+  for (const double creep_ratio : {0.02, 0.035, 0.05, 0.07, 0.1}) {
+    const Samples samples = samples_of(runs, axes, alone.form, creep_ratio);
+    for (const double c_nu : {2.0, 3.0, 4.0, 6.0, 8.0})
+      for (const double c_psi : {8.0, 12.0, 16.0, 24.0, 32.0}) {
+        if (!(c_nu < c_psi)) continue;
+        Trial now = tried(samples, c_nu, c_psi,
+                          [&](const StressPath& path) { return felt_dilatancy(path, axes, c_nu, c_psi); });
+        if (!now.total.is_determined())
+          throw InputError(
+              "--amount: the paths do not determine what the past adds to the amount of the stress");
+        found.trials.push_back(now.trial);
+        if (!best.sectors.empty() && !(now.trial.rms < best.trial.rms)) continue;
+        best = std::move(now);
+        of_best = samples;
+      }
+  }
+  const auto more = best.x.tail<3>();
+  found.law = {more[amount_swelling], best.trial.c_nu, best.trial.c_psi, more[amount_lag]};
+  if (more[amount_creep] > 0) found.law.creep = {more[amount_creep], best.trial.creep_ratio};
+  found.ci99_sectors = sector_intervals(best, of_best.least);
+  found.measured = stress_dilatancy(of_best);
   MemoryLaw law = axes;
   law.amount = found.law;
   std::vector<std::vector<FrictionPoint>> left;
@@ -225,7 +273,8 @@ AmountFit fit_amount(std::span<const PathsOfRun> runs, std::span<const PathsOfRu
       left.back().push_back(
           {.I = std::exp(path.ln_I), .mu = std::abs(path.stress) - added_amount(path, law)});
   }
-  found.table = calibrated(left, {.kind = FormKind::table, .knots = knots}, 0);
+  of_best.table.slope_besides = followed_slope(found.law);
+  found.table = calibrated(left, of_best.table, 0);
   const FormCurve table = found.table.curve(), without = alone.curve();
   found.scores = scores_of(runs, law, table, without);
   found.predictions = scores_of(held_out, law, table, without);

@@ -13,11 +13,12 @@
 
 namespace drumlin::coupling {
 
-enum : std::size_t { amount_swelling, amount_lag };  ///< places of the coefficients in arrays
+enum : std::size_t { amount_swelling, amount_lag, amount_creep };  ///< places of the coefficients in arrays
 
-/// A pair of rates at which volume fraction and dilatancy follow, and what the fit leaves of |s|/p.
+/// A pair of rates at which volume fraction and dilatancy follow, a ratio below which creep counts, and what
+/// the fit leaves of |s|/p.
 struct AmountTrial {
-  double c_nu = 0, c_psi = 0, rms = 0;
+  double c_nu = 0, c_psi = 0, creep_ratio = 0, rms = 0;
 };
 
 /// What is left of |s|/p of a run: root mean squares over its paths, by mu(I) alone and with its memory.
@@ -35,20 +36,22 @@ struct StressDilatancy {
 struct AmountFit {
   AmountMemory law;
   CalibratedLaw table;                 ///< |s|/p over I less what the past adds: mu(I) of steady simple shear
-  std::array<double, 2> ci99_sectors;  ///< of swelling and lag, over the sectors of the drum
+  std::array<double, 3> ci99_sectors;  ///< of swelling, lag and creep, over the sectors of the drum
   std::vector<AmountTrial> trials;
   std::optional<StressDilatancy> measured;  ///< no part of the law, its check; none where nothing dilates
   std::vector<AmountScore> scores, predictions;  ///< per run of the fit, per run held out
 };
 
-/// psi - lag axes_lag at the end of a path, what the past adds to mu(I) there; `law`: with an amount. t = 1.
+/// psi - lag axes_lag + creep at the end of a path, what is added to mu(I) there; `law`: with an amount. t
+/// = 1.
 double added_amount(const StressPath& path, const MemoryLaw& law);
 
-/// Least squares of |s|/p over all paths: the knots of a table of mu(I), swelling and lag, for each pair of
-/// c_nu = 2, 3, 4, 6, 8 and c_psi = 8, 12, 16, 24, 32 above it, of which the best is taken; then the table
-/// once more, robustly, over what is left. `axes`: the law of the axes, `alone`: its mu(I) without memory,
-/// whose knots are kept. Nothing of `held_out` enters but the predictions. Throws InputError where the paths
-/// do not determine it.
+/// Least squares of |s|/p over all paths: the knots of a table of mu(I) that grows, swelling, lag and the
+/// slope of creep, for each c_nu = 2, 3, 4, 6, 8, c_psi = 8, 12, 16, 24, 32 above it and ratio of creep =
+/// 0.02, 0.035, 0.05, 0.07, 0.1, of which the best are taken; then the table once more, robustly, over what
+/// is left. `axes`: the law of the axes, `alone`: its mu(I) without memory, whose knots are kept but for
+/// those inside where creep counts: one speed cannot tell I from |D|/|W|. Nothing of `held_out` enters but
+/// the predictions. Throws InputError where the paths do not determine it.
 AmountFit fit_amount(std::span<const PathsOfRun> runs, std::span<const PathsOfRun> held_out,
                      const MemoryLaw& axes, const CalibratedLaw& alone);
 

@@ -146,8 +146,9 @@ FrictionForm kept_well_posed(const FrictionForm& form, const Coefficients& law) 
     for (int i = 0; i <= places; ++i) {
       const double share = static_cast<double>(i) / places;
       const CurvePoint at = curve.at(form.knots[j] * std::pow(form.knots[j + 1] / form.knots[j], share));
-      needed = std::max(needed, least_slope(at.value));
-      lacks = std::max(lacks, least_slope(at.value) / at.slope);
+      const double least = least_slope(at.value) - form.slope_besides;
+      needed = std::max(needed, least);
+      lacks = std::max(lacks, least / at.slope);
     }
     // Inside an interval the cubic is half as steep as its chord at least; what its ends lack beside a flat
     // neighbour is the neighbour's to mend. One per cent more: the curve may be flatter between two places.

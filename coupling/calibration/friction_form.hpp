@@ -25,6 +25,7 @@ struct FrictionForm {
   FormKind kind = FormKind::log;
   std::vector<double> knots = {};         ///< of a table: inertial numbers, ascending, two at least
   std::vector<double> least_growth = {};  ///< of `table`, per unit of ln I and interval; empty: 1e-4
+  double slope_besides = 0;               ///< of a law that adds to the table, per unit of ln I
   std::size_t size() const;               ///< number of coefficients
 };
 
@@ -57,8 +58,8 @@ double friction_slope(const FrictionForm& form, const Coefficients& law, double 
 
 /// The table with its least growth raised where `law` is ill-posed in simple shear: there I mu'/mu lies below
 /// the lower root y of 4 y^2 - 4 y + mu^2 (1 - y/2)^2 = 0 (Barker, Schaeffer, Bohorquez & Gray, J. Fluid
-/// Mech. 779 (2015)), about mu^2/4. A flatter law has no flow that a mesh could resolve. What is no table of
-/// mu, or well-posed at each of its I, comes back as it is.
+/// Mech. 779 (2015)), about mu^2/4. A flatter law has no flow that a mesh could resolve. `slope_besides` is
+/// counted in. What is no table of mu, or well-posed at each of its I, comes back as it is.
 FrictionForm kept_well_posed(const FrictionForm& form, const Coefficients& law);
 
 /// Intervals of a table of mu that are held at their least growth.

@@ -57,6 +57,7 @@ std::vector<StressPath> stress_paths(const PathFields& fields, const PathOptions
                       distance,
                       point.rate / std::abs(point.rate),
                       std::log(inertial(point)),
+                      std::abs(point.spin / point.rate),
                       point.stress / point.p,
                       traced_back(fields, x, z, options)};
       if (path.steps.empty()) continue;

@@ -23,6 +23,7 @@ struct StressPath {
   double radius = 0;            ///< distance from the drum's axis, d
   Deviator axis;                ///< n at the node
   double ln_I = 0;              ///< at the node
+  double spin_share = 0;        ///< |W|/|D| at the node
   Deviator stress;              ///< s/p at the node
   std::vector<PathStep> steps;  ///< from the oldest to the node
 };

@@ -34,6 +34,10 @@ double added_friction(const AmountMemory& law, double mu, double dilatancy, doub
   return std::clamp(dilatancy - law.lag * axes_lag, -most * mu, most * mu);
 }
 
+double creep_friction(const Creep& creep, double rate, double spin) {
+  return creep.slope * std::min(0.0, std::log(rate / (creep.ratio * std::abs(spin))));
+}
+
 double followed_slope(const AmountMemory& law) { return 0.5 * law.swelling * law.c_nu; }
 
 TabulatedLaw memory_friction(const MemoryLaw& law) { return {law.mu.I, law.mu.mu}; }

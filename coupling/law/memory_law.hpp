@@ -7,9 +7,10 @@
 //
 // with traceless tensors as complex numbers xx + i xz, n = D/|D|, W the spin in the sense of dv_x/dz, and t
 // the side to which the material turns (docs/theory/rheology.md). With AmountMemory the target amount is
-// mu(I) + psi - lag (axes_lag), where psi, the dilatancy, follows from what I was:
+// mu(I) + psi - lag (axes_lag) + creep, where psi, the dilatancy, follows from what I was:
 //
-//   v.grad L = 2 c_nu |D| (ln I - L),   v.grad psi = 2 c_psi |D| (swelling c_nu (ln I - L) - psi).
+//   v.grad L = 2 c_nu |D| (ln I - L),   v.grad psi = 2 c_psi |D| (swelling c_nu (ln I - L) - psi),
+//   creep = slope ln(|D|/(ratio |W|)), at most 0.
 #include <complex>
 
 #include "coupling/law/friction_law.hpp"
@@ -35,6 +36,9 @@ double axes_lag(const MemoryLaw& law, double turn, std::complex<double> n, std::
 
 /// What the past adds to mu, psi - lag (axes_lag), within half of mu. 0 in steady simple shear.
 double added_friction(const AmountMemory& law, double mu, double dilatancy, double axes_lag);
+
+/// What creep adds to mu where the material shears at |D| and turns at W, both in the same unit: 0 or less.
+double creep_friction(const Creep& creep, double rate, double spin);
 
 /// A slope of what the past adds by ln I, half of what dilatancy could follow at most where I changes over a
 /// short way: a solver that takes it into mu(I), and out of what it holds, does not swing.

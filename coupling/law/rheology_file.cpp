@@ -67,8 +67,12 @@ struct MuTable {
 struct StressRatioTable {
   NormalStressRatio points;
 };
+struct CreepTable {
+  Creep law;
+};
 struct AmountTable {
   AmountMemory law;
+  std::optional<CreepTable> creep;
 };
 struct MemoryTable {
   MemoryLaw law;
@@ -119,6 +123,12 @@ void describe(Visitor& v, StressRatioTable& t) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, CreepTable& t) {
+  v.value("slope", t.law.slope, required("", above(0, 1), "By how much the amount falls per ln(|D|/|W|)."));
+  v.value("ratio", t.law.ratio, required("", above(0, 1), "|D|/|W| below which it falls."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, AmountTable& t) {
   v.value("swelling", t.law.swelling,
           required("", above(0, 1), "By how much ln nu falls per ln I in steady shear."));
@@ -128,6 +138,7 @@ void describe(Visitor& v, AmountTable& t) {
           required("", above(0, 1e6), "Share of the dilatancy felt that is renewed per unit of shear."));
   v.value("lag", t.law.lag,
           required("", at_least(-1, 1), "By how much the amount falls per lag of the remembered axes."));
+  v.optional_table("creep", t.creep, "What little shear per turn takes off the amount; absent: nothing.");
 }
 
 template <class Visitor>
@@ -340,7 +351,10 @@ RheologyFit fit_of(const Document& document) {
   fit.mu = content.mu.friction;
   if (content.k) fit.k = content.k->points;
   if (content.memory) fit.memory = content.memory->law;
-  if (content.memory && content.memory->amount) fit.memory->amount = content.memory->amount->law;
+  if (content.memory && content.memory->amount) {
+    fit.memory->amount = content.memory->amount->law;
+    if (const auto& creep = content.memory->amount->creep) fit.memory->amount->creep = creep->law;
+  }
   if (content.nonlocal) fit.nonlocal = content.nonlocal->law;
   fit.nu = content.packing.nu;
   fit.nu_ci99 = content.packing.nu_ci99;
@@ -367,7 +381,10 @@ std::string rheology_text(const RheologyFit& fit) {
   content.mu = {fit.mu, fit.rms_misfit};
   if (fit.k) content.k = StressRatioTable{*fit.k};
   if (fit.memory) content.memory = MemoryTable{*fit.memory, {}};
-  if (fit.memory && fit.memory->amount) content.memory->amount = AmountTable{*fit.memory->amount};
+  if (fit.memory && fit.memory->amount) {
+    content.memory->amount = AmountTable{*fit.memory->amount, {}};
+    if (const auto& creep = fit.memory->amount->creep) content.memory->amount->creep = CreepTable{*creep};
+  }
   if (fit.nonlocal) content.nonlocal = NonlocalTable{*fit.nonlocal};
   if (!fit.draws.empty()) content.band.emplace();
   for (const MeasuredFriction& draw : fit.draws)

@@ -55,6 +55,13 @@ struct NormalStressRatio {
   std::vector<double> k;
 };
 
+/// Where the material is sheared little while it turns, the amount depends on how little, whatever the speed
+/// (docs/theory/dilatancy.md): below a ratio |D|/|W| it falls.
+struct Creep {
+  double slope = 0;  ///< per ln(|D|/|W|), > 0
+  double ratio = 0;  ///< |D|/|W| below which it does, 0 to 1: in simple shear that is one
+};
+
 /// What the past of the material adds to the amount of its stress (docs/theory/dilatancy.md):
 /// its volume fraction follows that of its I, and it resists more while it swells.
 struct AmountMemory {
@@ -62,6 +69,7 @@ struct AmountMemory {
   double c_nu = 0;      ///< share of nu's way to that value that is made per unit of shear, > 0
   double c_psi = 0;     ///< share of the dilatancy that is felt which is renewed per unit of shear, > 0
   double lag = 0;       ///< by how much the amount falls per lag of the axes, see axes_lag()
+  std::optional<Creep> creep = {};  ///< absent: the amount falls with I alone
 };
 
 /// Memory of the axes (coupling/law/memory_law.hpp): the material carries the axes of its past strain along,

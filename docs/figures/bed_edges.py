@@ -20,6 +20,7 @@ ANGLES = [-a for a in CORNER[::-1]] + list(range(-65, 66, 5)) + CORNER  # deg
 LINE_I = 1e-2
 LINE_X = list(range(-44, 45, 4))  # d
 FRICTION = 0.95  # of the wall in the scenes of the drum
+SURFACE_END = 87.7  # deg, of the half full drum
 
 
 def fields_of(run):
@@ -117,9 +118,10 @@ def slip_length(wall):
 
 
 def entrainment_length(wall, radius):
-    """Over which the slip falls by e where material meets the wall, in d: least squares of ln slip from 74 to 84 deg."""
-    points = numpy.array([(math.radians(angle), math.log(slip)) for angle, slip in zip(ANGLES, wall["slip"]) if 74 <= angle <= 84 and slip > 0])
-    return radius / float(numpy.polyfit(*points.T, 1)[0])
+    """Over which the lag of the material behind the layers that order along the wall falls by e, from one where the continuum's flat surface meets
+    the wall, in d: least squares of ln lag from 74 to 84 deg."""
+    points = numpy.array([(radius * math.radians(SURFACE_END - angle), math.log(lag)) for angle, lag in zip(ANGLES, wall["lag_4_d"]) if 74 <= angle <= 84 and lag > 0])
+    return float(numpy.sum(points[:, 0] ** 2) / -numpy.sum(points[:, 0] * points[:, 1]))
 
 
 def speed_exponents(speeds):
@@ -154,6 +156,8 @@ def main():
               for rpm, of in sorted(speeds.items(), key=lambda entry: float(entry[0]))}
     record = {"format": "drumlin-bed-edges-1", "angles_deg": ANGLES, "line_x": LINE_X, "speeds": speeds, "speed_exponents": speed_exponents(speeds),
               "contacts": {run.name: contacts_of(run) for run in options.contacts}}
+    if not options.contacts and options.record.exists():
+        record["contacts"] = json.loads(options.record.read_text())["contacts"]
     record = json.loads(json.dumps(record), parse_constant=lambda _: None)
     whole_file.write_text(options.record, json.dumps(rounded(record)) + "\n")
 

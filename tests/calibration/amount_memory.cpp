@@ -23,7 +23,11 @@ const MemoryLaw law{.c = 6,
                     .I_low = 1e-2,
                     .I_high = 1e-1,
                     .mu = {{1e-6, 1}, {0.31 + 0.011 * std::log(1e-6), 0.31}},
-                    .amount = AmountMemory{.swelling = 0.008, .c_nu = 4, .c_psi = 16, .lag = 0.05}};
+                    .amount = AmountMemory{.swelling = 0.008,
+                                           .c_nu = 4,
+                                           .c_psi = 16,
+                                           .lag = 0.05,
+                                           .creep = Creep{.slope = 0.015, .ratio = 0.05}}};
 
 TEST(AmountMemory, AddsNothingInSteadySimpleShear) {
   for (const double I : {1e-5, 1e-3, 0.03, 0.5})
@@ -82,6 +86,16 @@ TEST(AmountMemory, LagIsTheSameSeenFromTheOtherSide) {
   EXPECT_NEAR(axes_lag(law, 1, n, A, 1e-4), axes_lag(law, -1, std::conj(n), std::conj(A), 1e-4), 1e-15);
 }
 
+TEST(AmountMemory, CreepTakesOffWhatLittleShearPerTurnLacks) {
+  const Creep creep{.slope = 0.02, .ratio = 0.05};
+  EXPECT_EQ(creep_friction(creep, 1, 0), 0);      // no turn
+  EXPECT_EQ(creep_friction(creep, 1, 1), 0);      // simple shear
+  EXPECT_EQ(creep_friction(creep, 0.05, -1), 0);  // where it begins
+  EXPECT_NEAR(creep_friction(creep, 0.005, -1), -0.02 * std::log(10), 1e-15);
+  // The same at any speed.
+  EXPECT_NEAR(creep_friction(creep, 0.05, -10), creep_friction(creep, 0.005, -1), 1e-15);
+}
+
 /// Paths of a drum whose amount is that of `law`.
 PathsOfRun remembering_paths(double surface_speed) {
   const FieldMap map = remembering_drum({.surface_speed = surface_speed});
@@ -113,6 +127,9 @@ TEST(AmountFit, KnownCoefficientsComeBackAndPredictAnotherSpeed) {
   EXPECT_EQ(fit.law.c_psi, 16);
   EXPECT_NEAR(fit.law.swelling, 0.008, 2e-4);
   EXPECT_NEAR(fit.law.lag, 0.05, 2e-3);
+  ASSERT_TRUE(fit.law.creep);
+  EXPECT_EQ(fit.law.creep->ratio, 0.05);
+  EXPECT_NEAR(fit.law.creep->slope, 0.015, 1e-3);
   EXPECT_NEAR(fit.table.curve().at(1e-4).value, known_amount(1e-4), 1e-3);
   ASSERT_EQ(fit.predictions.size(), 1U);
   EXPECT_LT(fit.predictions[0].bed, 0.2 * fit.predictions[0].bed_alone);

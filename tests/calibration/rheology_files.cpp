@@ -83,6 +83,9 @@ TEST(RheologyFile, WhatWasWrittenIsReadBack) {
   for (const char* absent : {"mu_s_ci99", "amount"}) expect_lacks(rheology_text(fit), absent);
   fit.memory->amount = AmountMemory{.swelling = 0.009, .c_nu = 4, .c_psi = 24, .lag = -0.05};
   expect_written(fit, {"swelling = 0.009\n", "c_nu = 4.0\n", "c_psi = 24.0\n", "lag = -0.05\n"});
+  expect_lacks(rheology_text(fit), "creep");
+  fit.memory->amount->creep = Creep{.slope = 0.016, .ratio = 0.035};
+  expect_written(fit, {"[memory.amount.creep]\n", "slope = 0.016\n", "ratio = 0.035\n"});
   const TemporaryFolder folder;
   write_rheology(folder / "law.toml", fit);
   EXPECT_EQ(rheology_text(read_rheology(folder / "law.toml")), rheology_text(fit));

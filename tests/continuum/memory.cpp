@@ -136,19 +136,20 @@ TEST(MemoryOfTheAxes, IsTakenFromTheFlowThatANeighbourLeft) {
   EXPECT_NEAR(from.field.theta(), slow.theta(), 1e-4);
 }
 
+const AmountMemory swelling{
+    .swelling = 0.008, .c_nu = 4, .c_psi = 16, .lag = 0.05, .creep = Creep{.slope = 0.015, .ratio = 0.05}};
+
 TEST(MemoryOfTheAxes, TangentIsTheDerivativeOfTheResidual) {
   FlowProblem problem = testing_tangent::small_segment();
   problem.memory.emplace(law);
   EXPECT_LT(testing_tangent::tangent_error(problem, false, 1e-6), 1e-7);
   problem.nonlocal = NonlocalFluidity{.length = 1.5};
   EXPECT_LT(testing_tangent::tangent_error(problem, false, 1e-6), 1e-7);
-  problem.memory->law.amount = AmountMemory{.swelling = 0.008, .c_nu = 4, .c_psi = 16, .lag = 0.05};
+  problem.memory->law.amount = swelling;
   EXPECT_LT(testing_tangent::tangent_error(problem, false, 1e-6), 1e-7);
   problem.nonlocal.reset();
   EXPECT_LT(testing_tangent::tangent_error(problem, false, 1e-6), 1e-7);
 }
-
-const AmountMemory swelling{.swelling = 0.008, .c_nu = 4, .c_psi = 16, .lag = 0.05};
 
 TEST(MemoryOfTheAxes, IsNotCalledSettledWhileItChanges) {
   // chi falls with I here: an early update of the velocity was small (4e-5) by chance, with axes 3 deg off.

@@ -120,11 +120,15 @@ std::string amount_text(const coupling::AmountFit& fit) {
           ? fmt::format("with the particles' own dilatancy, c_psi = {:g}, times {:.2f} +- {:.2f}",
                         fit.measured->c_psi, fit.measured->coefficient, fit.measured->coefficient_ci99)
           : "the particles show no dilatancy of their own to compare it with";
+  const std::string creep =
+      fit.law.creep ? fmt::format(", creep {:.4f} +- {:.4f} per ln(|D|/|W|) below {:g}", fit.law.creep->slope,
+                                  fit.ci99_sectors[coupling::amount_creep], fit.law.creep->ratio)
+                    : "";
   return fmt::format(
              "  the amount: swelling {:.4f} +- {:.4f} per ln I, c_nu = {:g}, c_psi = {:g}, lag {:.3f} +- "
-             "{:.3f}; {}\n",
+             "{:.3f}{}; {}\n",
              fit.law.swelling, fit.ci99_sectors[coupling::amount_swelling], fit.law.c_nu, fit.law.c_psi,
-             fit.law.lag, fit.ci99_sectors[coupling::amount_lag], own) +
+             fit.law.lag, fit.ci99_sectors[coupling::amount_lag], creep, own) +
          amount_scores_text("fitted", fit.scores) + amount_scores_text("predicted", fit.predictions);
 }
 

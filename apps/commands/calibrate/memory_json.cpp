@@ -8,7 +8,7 @@ DRUMLIN_DESCRIBED(MemoryScore::Zone, paths, rms, axes_deg, rms_without_memory, a
 DRUMLIN_DESCRIBED(MemoryScore, run, bed, flow)
 DRUMLIN_DESCRIBED(LeadTrial, I_low, I_high, cost)
 DRUMLIN_DESCRIBED(DilationShare::Half, points, mu, dilatancy)
-DRUMLIN_DESCRIBED(AmountTrial, c_nu, c_psi, rms)
+DRUMLIN_DESCRIBED(AmountTrial, c_nu, c_psi, creep_ratio, rms)
 }  // namespace drumlin::coupling
 
 namespace drumlin::apps {
@@ -115,8 +115,13 @@ Json remembered_json(const std::optional<coupling::AmountFit>& fit) {
                 {"c_psi", fit->measured->c_psi},
                 {"lag", fit->measured->lag},
                 {"rms", fit->measured->rms}};
+  Json creep;
+  if (fit->law.creep)
+    creep = {{"slope", coefficient(fit->law.creep->slope, fit->ci99_sectors[coupling::amount_creep])},
+             {"ratio", fit->law.creep->ratio}};
   return {{"swelling", coefficient(fit->law.swelling, fit->ci99_sectors[coupling::amount_swelling])},
           {"lag", coefficient(fit->law.lag, fit->ci99_sectors[coupling::amount_lag])},
+          {"creep", creep},
           {"c_nu", fit->law.c_nu},
           {"c_psi", fit->law.c_psi},
           {"rms_misfit", fit->table.fit.rms_misfit},

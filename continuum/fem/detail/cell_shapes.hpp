@@ -77,6 +77,12 @@ struct PointMotion {
   std::array<double, 2> u{};
   std::array<std::array<double, 2>, 2> gradient{};  ///< [component][direction]
 };
+template <class Gradient>  // g[component][direction]
+PointMotion motion_of(const Gradient& g) {
+  return {.gradient = {{{g[0][0], g[0][1]}, {g[1][0], g[1][1]}}}};
+}
+/// W, in the sense of dv_x/dz.
+inline double spin_of(const PointMotion& at) { return 0.5 * (at.gradient[0][1] - at.gradient[1][0]); }
 
 struct PointValues {
   PointMotion motion = {};

@@ -18,6 +18,8 @@ struct HeldValues {
   std::vector<Remembered> memory;  ///< A and rho, with memory of the axes
   double memory_weight = 0;        ///< m, less while it rises
   double followed_slope = 0;       ///< of FollowedLaw; 0: the amount is mu(I)
+  Creep creep = {};                ///< of FollowedLaw
+  std::vector<double> spin;        ///< W, with creep; empty: that of the flow there
 };
 
 struct HeldFields {
