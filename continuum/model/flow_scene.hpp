@@ -60,7 +60,7 @@ struct FlowMesh {
   double refined_share = 1;
 };
 struct FlowBoundary {
-  double entrainment_length = 3.8;  ///< d
+  double entrainment_length = 3.6;  ///< d
   double surface_stiffness = 1e4;   ///< rho0 g
 };
 struct FlowRegularisation {

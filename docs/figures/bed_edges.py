@@ -21,6 +21,7 @@ LINE_I = 1e-2
 LINE_X = list(range(-44, 45, 4))  # d
 FRICTION = 0.95  # of the wall in the scenes of the drum
 SURFACE_END = 87.7  # deg, of the half full drum
+BLIND = ("3", "12")  # rpm
 
 
 def fields_of(run):
@@ -117,11 +118,26 @@ def slip_length(wall):
     return {"mean": float(numpy.mean(lengths)), "deviation": float(numpy.std(lengths, ddof=1))}
 
 
-def entrainment_length(wall, radius):
-    """Over which the lag of the material behind the layers that order along the wall falls by e, from one where the continuum's flat surface meets
-    the wall, in d: least squares of ln lag from 74 to 84 deg."""
-    points = numpy.array([(radius * math.radians(SURFACE_END - angle), math.log(lag)) for angle, lag in zip(ANGLES, wall["lag_4_d"]) if 74 <= angle <= 84 and lag > 0])
-    return float(numpy.sum(points[:, 0] ** 2) / -numpy.sum(points[:, 0] * points[:, 1]))
+def entrainment_of(f, radius, rotation):
+    """Where material meets the wall, 4 to 5 d from it, behind the layers that order along it: how high the surface (nu = 0.4) ends above the flat surface
+    of the continuum, and over which length the lag falls by e, from one at that end (least squares of ln lag from 74 to 84 deg), in d."""
+    ring = (f["r"] < radius - 4) & (f["r"] > radius - 5) & (f["phi"] > 60)
+    angles = numpy.arange(60, 110)
+    here = [ring & (abs(f["phi"] - angle) <= 0.5) for angle in angles]
+    nu = numpy.array([numpy.mean(numpy.nan_to_num(f["nu"][at])) if at.any() else 0 for at in here])
+    last = numpy.flatnonzero(nu >= 0.4)[-1]
+    end = angles[last] + (nu[last] - 0.4) / (nu[last] - nu[last + 1])
+    lag = -(f["v_x"] * f["z"] - f["v_z"] * f["x"]) / f["r"] / (rotation * radius)
+    here = ring & (f["phi"] >= 74) & (f["phi"] <= 84) & (lag > 0)
+    s = radius * numpy.radians(end - f["phi"][here])
+    return [float(radius * math.radians(end - SURFACE_END)), float(numpy.sum(s**2) / -numpy.sum(s * numpy.log(lag[here])))]
+
+
+def entrainment_line(speeds):
+    """Length over height of the end, a straight line through the speeds that are not blind, and what it leaves at each."""
+    points = {rpm: numpy.mean(speed["entrainment"], axis=0) for rpm, speed in speeds.items()}
+    line = numpy.polyfit(*numpy.array([point for rpm, point in points.items() if rpm not in BLIND]).T, 1)
+    return {"length": float(line[1]), "per_height": float(line[0]), "leaves": {rpm: float(length - numpy.polyval(line, height)) for rpm, (height, length) in points.items()}}
 
 
 def speed_exponents(speeds):
@@ -147,14 +163,14 @@ def main():
     speeds = {}
     for run in options.runs:
         f, radius, rotation = fields_of(run)
-        speeds.setdefault(run.name.split("rpm")[0], []).append({"run": run.name, "wall": wall_of(f, radius, rotation), "line": line_of(f), "radius": radius})
+        speeds.setdefault(run.name.split("rpm")[0], []).append({"run": run.name, "wall": wall_of(f, radius, rotation), "line": line_of(f),
+                                                            "entrainment": entrainment_of(f, radius, rotation)})
     speeds = {rpm: {"runs": [run["run"] for run in of], "wall": mean_of([run["wall"] for run in of]), "line": mean_of([run["line"] for run in of]),
                     "slip_length": slip_length(mean_of([run["wall"] for run in of])),
-                    "entrainment_length": {"of_runs": [entrainment_length(run["wall"], run["radius"]) for run in of],
-                                           "of_mean": entrainment_length(mean_of([run["wall"] for run in of]), of[0]["radius"])},
+                    "entrainment": [run["entrainment"] for run in of],
                     "slip_between_runs": numpy.std([run["wall"]["slip"] for run in of], axis=0, ddof=1).tolist() if len(of) > 1 else None}
               for rpm, of in sorted(speeds.items(), key=lambda entry: float(entry[0]))}
-    record = {"format": "drumlin-bed-edges-1", "angles_deg": ANGLES, "line_x": LINE_X, "speeds": speeds, "speed_exponents": speed_exponents(speeds),
+    record = {"format": "drumlin-bed-edges-1", "angles_deg": ANGLES, "line_x": LINE_X, "speeds": speeds, "speed_exponents": speed_exponents(speeds), "entrainment_line": entrainment_line(speeds),
               "contacts": {run.name: contacts_of(run) for run in options.contacts}}
     if not options.contacts and options.record.exists():
         record["contacts"] = json.loads(options.record.read_text())["contacts"]
