@@ -124,7 +124,8 @@ std::vector<double> knots_above(std::span<const PathsOfRun> runs, std::vector<do
       ++count;
     }
   const double begins = count > 0 ? ratio * std::exp(sum / count) : 0;
-  std::erase_if(knots, [&](double I) { return I > knots.front() && I < begins; });
+  const double first = knots.front(), last = knots.back();
+  std::erase_if(knots, [&](double I) { return I > first && I < std::min(begins, last); });
   return knots;
 }
 
