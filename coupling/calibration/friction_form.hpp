@@ -59,7 +59,8 @@ double friction_slope(const FrictionForm& form, const Coefficients& law, double 
 /// The table with its least growth raised where `law` is ill-posed in simple shear: there I mu'/mu lies below
 /// the lower root y of 4 y^2 - 4 y + mu^2 (1 - y/2)^2 = 0 (Barker, Schaeffer, Bohorquez & Gray, J. Fluid
 /// Mech. 779 (2015)), about mu^2/4. A flatter law has no flow that a mesh could resolve. `slope_besides` is
-/// counted in. What is no table of mu, or well-posed at each of its I, comes back as it is.
+/// counted in, as in the margin that a flow states. What is no table of mu, or well-posed at each of its I,
+/// comes back as it is.
 FrictionForm kept_well_posed(const FrictionForm& form, const Coefficients& law);
 
 /// Intervals of a table of mu that are held at their least growth.

@@ -59,7 +59,7 @@ struct NormalStressRatio {
 /// (docs/theory/dilatancy.md): below a ratio |D|/|W| it falls.
 struct Creep {
   double slope = 0;  ///< per ln(|D|/|W|), > 0
-  double ratio = 0;  ///< |D|/|W| below which it does, 0 to 1: in simple shear that is one
+  double ratio = 0;  ///< |D|/|W| below which it does, 0 to 1; |D|/|W| is one in simple shear
 };
 
 /// What the past of the material adds to the amount of its stress (docs/theory/dilatancy.md):
