@@ -31,7 +31,7 @@ void add_calibrate_options(CLI::App& command, CalibrateOptions& options) {
       "renewed by strain, and what the runs cannot tell of them (from maps)");
   command
       .add_flag("--amount", options.amount,
-                "With --memory: what past strain adds to the amount of the stress, dilatancy and lag of the "
+                "With --memory: what is added to the amount of the stress: creep, dilatancy and lag of the "
                 "axes, as a part of the law")
       ->needs(memory);
   command.add_flag("--nonlocal", options.nonlocal,

@@ -40,9 +40,11 @@ DrumGeometry drum_geometry(const FlowScene& scene, double nu) {
 
 Vec2 entraining_wall_velocity(const DrumGeometry& drum, double length, Vec2 point, Vec2 left, Vec2 right) {
   constexpr double growth = 0.3;  // of the length per height of the end, measured from 2 to 15 rpm
-  const Vec2 end = point.x < 0 ? left : right;
-  const double from_end = std::hypot(point.x - end.x, point.z - end.z);
-  const double share = -std::expm1(-from_end / std::max(0.25 * length, length + growth * end.z));
+  double share = 1;
+  for (const Vec2& end : {left, right}) {
+    const double from_end = std::hypot(point.x - end.x, point.z - end.z);
+    share *= -std::expm1(-from_end / std::max(0.25 * length, length + growth * end.z));
+  }
   const Vec2 rigid = rigid_rotation(drum.rotation, drum.axis_offset, point);
   return {share * rigid.x, share * rigid.z};
 }

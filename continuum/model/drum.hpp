@@ -24,9 +24,9 @@ struct DrumGeometry {
 /// Of a scene with a drum. Throws InputError if the grains, at the law's nu, do not fit into the drum.
 DrumGeometry drum_geometry(const FlowScene& scene, double nu);
 
-/// Velocity of the material at the wall: the share 1 - exp(-s/l) of the wall's, s being the distance from the
-/// end of the surface on that side. l is `length` where that end is at z = 0 and grows with its height by
-/// 0.3. Measured where material meets the wall (docs/results/bed.md).
+/// Velocity of the material at the wall: the share 1 - exp(-s/l) of the wall's for each end of the surface, s
+/// being the distance from it. l is `length` where that end is at z = 0 and grows with its height by 0.3, a
+/// quarter of `length` at least. Measured where material meets the wall (docs/results/bed.md).
 Vec2 entraining_wall_velocity(const DrumGeometry& drum, double length, Vec2 point, Vec2 left, Vec2 right);
 
 /// The drum of a scene with a law, complete: mu, k, weight, sides, and every effect that the scene names.

@@ -79,7 +79,7 @@ struct Sums {
   Sums without(const Sums& other) const {
     return {matrix - other.matrix, right - other.right, squares - other.squares, paths - other.paths};
   }
-  /// Of a table that grows, and a creep that lessens the friction. What no path tells of is nought.
+  /// None below its least value; what no path tells of is that, or 0 where it has none.
   Vector solution(const std::vector<double>& least) const {
     NormalEquations equations(least.size());
     Eigen::Map<Matrix> padded(equations.matrix.data(), matrix.rows(), matrix.cols());
@@ -89,9 +89,10 @@ struct Sums {
     const std::vector<double> found = bounded_minimum(equations, least);
     return Eigen::Map<const Vector>(found.data(), right.size());
   }
+  /// All but a creep that no path has.
   bool is_determined() const {
-    const auto told = (matrix.diagonal().array() > 0).count();
-    return Eigen::CompleteOrthogonalDecomposition<Matrix>(matrix).rank() == told;
+    const Eigen::Index without_creep = matrix.diagonal().tail<1>()[0] > 0 ? 0 : 1;
+    return Eigen::CompleteOrthogonalDecomposition<Matrix>(matrix).rank() == matrix.rows() - without_creep;
   }
   double rms(const Vector& x) const {
     return std::sqrt(std::max(0.0, squares - 2 * x.dot(right) + x.dot(matrix * x)) /
@@ -153,8 +154,8 @@ Samples samples_of(std::span<const PathsOfRun> runs, const MemoryLaw& axes, cons
   for (const PathsOfRun& run : runs)
     for (const StressPath& path : run.paths) {
       Vector row = growth_weights(samples.table.knots, path.ln_I);
-      row[row.size() - 2] = -lag_of(path, axes);
-      row[row.size() - 1] = creep_friction({1, creep_ratio}, 1, path.spin_share);
+      row.tail<3>()[amount_lag] = -lag_of(path, axes);
+      row.tail<3>()[amount_creep] = creep_friction({1, creep_ratio}, 1, path.spin_share);
       samples.paths.push_back({&path, std::move(row)});
     }
   return samples;
@@ -173,7 +174,7 @@ Trial tried(const Samples& samples, double c_nu, double c_psi, Dilatancy dilatan
   Trial found{{c_nu, c_psi, samples.creep_ratio}, {}, {}, {}};
   for (const Sample& sample : samples.paths) {
     Vector row = sample.row;
-    row[row.size() - 3] = dilatancy(*sample.path);
+    row.tail<3>()[amount_swelling] = dilatancy(*sample.path);
     found.sectors[sector_of(*sample.path)].add(row, std::abs(sample.path->stress));
   }
   for (const auto& [number, sums] : found.sectors) found.total += sums;
@@ -186,7 +187,7 @@ std::array<double, 3> sector_intervals(const Trial& best, const std::vector<doub
   std::array<std::vector<double>, 3> without;
   for (const auto& [number, sums] : best.sectors) {
     const Vector x = best.total.without(sums).solution(least);
-    for (std::size_t j = 0; j < 3; ++j) without[j].push_back(x[x.size() - 3 + static_cast<Eigen::Index>(j)]);
+    for (std::size_t j = 0; j < 3; ++j) without[j].push_back(x.tail<3>()[static_cast<Eigen::Index>(j)]);
   }
   const double factor = statistics::student_quantile_99(static_cast<int>(best.sectors.size()) - 1);
   std::array<double, 3> intervals;
@@ -201,10 +202,11 @@ std::optional<StressDilatancy> stress_dilatancy(const Samples& samples) {
   for (const double c_psi : {2.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0}) {
     const Trial now =
         tried(samples, 0, c_psi, [&](const StressPath& path) { return seen_dilatancy(path, c_psi); });
-    if (!(now.total.matrix(now.x.size() - 3, now.x.size() - 3) > 0) || !now.total.is_determined()) return {};
+    if (!now.total.is_determined()) return {};
     if (found && !(now.trial.rms < found->rms)) continue;
-    found = {c_psi, now.x[now.x.size() - 3], sector_intervals(now, samples.least)[0], now.x[now.x.size() - 2],
-             now.trial.rms};
+    const auto more = now.x.tail<3>();
+    found = {c_psi, more[amount_swelling], sector_intervals(now, samples.least)[amount_swelling],
+             more[amount_lag], now.trial.rms};
   }
   return found;
 }
@@ -243,7 +245,6 @@ AmountFit fit_amount(std::span<const PathsOfRun> runs, std::span<const PathsOfRu
                      const MemoryLaw& axes, const CalibratedLaw& alone) {
   AmountFit found;
   Trial best;
-  Samples of_best;
   for (const double creep_ratio : {0.02, 0.035, 0.05, 0.07, 0.1}) {
     const Samples samples = samples_of(runs, axes, alone.form, creep_ratio);
     for (const double c_nu : {2.0, 3.0, 4.0, 6.0, 8.0})
@@ -255,11 +256,10 @@ AmountFit fit_amount(std::span<const PathsOfRun> runs, std::span<const PathsOfRu
           throw InputError(
               "--amount: the paths do not determine what the past adds to the amount of the stress");
         found.trials.push_back(now.trial);
-        if (!best.sectors.empty() && !(now.trial.rms < best.trial.rms)) continue;
-        best = std::move(now);
-        of_best = samples;
+        if (best.sectors.empty() || now.trial.rms < best.trial.rms) best = std::move(now);
       }
   }
+  Samples of_best = samples_of(runs, axes, alone.form, best.trial.creep_ratio);
   const auto more = best.x.tail<3>();
   found.law = {more[amount_swelling], best.trial.c_nu, best.trial.c_psi, more[amount_lag]};
   if (more[amount_creep] > 0) found.law.creep = {more[amount_creep], best.trial.creep_ratio};

@@ -28,7 +28,8 @@ struct AmountScore {
 };
 
 /// The same with the dilatancy that the particles show in place of the law's: |s|/p = mu(I) + coefficient Q -
-/// lag axes_lag, v.grad Q = 2 c_psi |D| (div v/(2|D|) - Q). Taylor's coefficient is one.
+/// lag axes_lag + creep, v.grad Q = 2 c_psi |D| (div v/(2|D|) - Q), at the ratio of creep that fits the law
+/// best. Taylor's coefficient is one.
 struct StressDilatancy {
   double c_psi = 0, coefficient = 0, coefficient_ci99 = 0, lag = 0, rms = 0;
 };

@@ -164,7 +164,7 @@ void describe(Visitor& v, MemoryTable& t) {
           required("", friction_range,
                    "Amount of the deviator of the stress over p there, growing; smooth in ln I between."));
   v.optional_table("amount", t.amount,
-                   "What the past adds to the amount: dilatancy and lag; absent: nothing.");
+                   "What is added to the amount: dilatancy, lag, creep; absent: nothing.");
 }
 
 template <class Visitor>

@@ -62,8 +62,8 @@ struct Creep {
   double ratio = 0;  ///< |D|/|W| below which it does, 0 to 1; |D|/|W| is one in simple shear
 };
 
-/// What the past of the material adds to the amount of its stress (docs/theory/dilatancy.md):
-/// its volume fraction follows that of its I, and it resists more while it swells.
+/// What is added to the amount of the stress (docs/theory/dilatancy.md), besides creep by the past of the
+/// material: its volume fraction follows that of its I, and it resists more while it swells.
 struct AmountMemory {
   double swelling = 0;  ///< beta: by how much ln nu falls per ln I in steady shear, > 0
   double c_nu = 0;      ///< share of nu's way to that value that is made per unit of shear, > 0

@@ -111,7 +111,7 @@ inline double normal_of(double dx, double dz, double& n_x, double& n_z) {
   return distance;
 }
 
-/// Gap of a thin wall to a disc beside the wall that goes on from it at a flat or convex joint: infinite
+/// Gap of a thin wall to a disc beside the wall that goes on from it, outside a concave joint: infinite
 /// where pairs are looked for, since the other wall has its own pair; that of the other wall's line on the
 /// path of a disc that comes there within a step, for which no search has found that pair.
 enum class BesideNext { infinite, line };

@@ -143,6 +143,7 @@ TEST(AmountFit, FindsNothingWhereTheAmountFollowsI) {
   axes.amount.reset();
   const AmountFit fit = fit_amount({&run, 1}, {}, axes, without_memory(run));
   EXPECT_NEAR(fit.law.swelling, 0, 1e-4);
+  EXPECT_LT(fit.law.creep.value_or(Creep{}).slope, 1e-3);
   EXPECT_NEAR(fit.law.lag, 0, 1e-3);
 }
 

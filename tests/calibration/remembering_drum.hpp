@@ -26,6 +26,7 @@ inline coupling::StressPath steady_shear(std::size_t steps, double strain, doubl
   coupling::StressPath path;
   path.axis = coupling::Deviator(0, 1);
   path.ln_I = ln_I;
+  path.spin_share = 1;
   path.steps.assign(steps, {strain, strain, path.axis, ln_I});
   return path;
 }

@@ -48,7 +48,7 @@ TEST(DrumProblem, WallTurnsRigidlyAndRestsAtTheEndsOfTheSurface) {
   const FlowProblem problem = drum_problem(paper_scene(), paper_law());
   const auto& wall = std::get<PrescribedVelocity>(problem.boundary.at(Side::bottom));
   const Vec2 lowest = wall.velocity({0, drum.axis_offset - drum.radius});
-  EXPECT_NEAR(lowest.x, -drum.rotation * drum.radius, 1e-10);  // against the surface flow, e^-25 behind
+  EXPECT_NEAR(lowest.x, -drum.rotation * drum.radius, 1e-10);  // against the surface flow, behind by e^-25
   EXPECT_NEAR(lowest.z, 0, 1e-12);
   const Vec2 corner = wall.velocity({drum.half_chord(), 0});
   EXPECT_NEAR(std::hypot(corner.x, corner.z), 0, 1e-12);

@@ -146,6 +146,7 @@ TEST(MemoryOfTheAxes, TangentIsTheDerivativeOfTheResidual) {
   problem.nonlocal = NonlocalFluidity{.length = 1.5};
   EXPECT_LT(testing_tangent::tangent_error(problem, false, 1e-6), 1e-7);
   problem.memory->law.amount = swelling;
+  problem.memory->law.amount->creep->ratio = 1;  // where the material turns faster than it shears
   EXPECT_LT(testing_tangent::tangent_error(problem, false, 1e-6), 1e-7);
   problem.nonlocal.reset();
   EXPECT_LT(testing_tangent::tangent_error(problem, false, 1e-6), 1e-7);

@@ -19,7 +19,7 @@ struct HeldValues {
   double memory_weight = 0;        ///< m, less while it rises
   double followed_slope = 0;       ///< of FollowedLaw; 0: the amount is mu(I)
   Creep creep = {};                ///< of FollowedLaw
-  std::vector<double> spin;        ///< W, with creep; empty: that of the flow there
+  std::vector<double> spin;        ///< W in the laboratory, with creep; empty: that of the flow, seen there
 };
 
 struct HeldFields {
