@@ -33,7 +33,7 @@ struct FlowSolverOptions {
   /// 6e-4.
   double picard_tolerance = 1e-3;
   /// The same while the surface of a flow that remembers still moves, and on all meshes but the last one.
-  double loose_picard_tolerance = 1e-2;
+  double loose_picard_tolerance = 3e-2;
   double loose_memory_tolerance = 1e-6;  ///< on the residual, likewise
   double loose_tolerance = 1e-4;  ///< on the residual of a flow without memory, before its surface moves
   /// Share of picard_tolerance to which memory is settled where no step of the surface lessens what presses.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 #include "continuum/fem/detail/kept_state.hpp"
 #include "continuum/fem/flow_field.hpp"
@@ -58,6 +59,17 @@ Projection onto_given(const Discretisation& d, const FieldVector& solution) {
     sums.square += solution[i] * solution[i];
   }
   return {d.sum(sums.product), d.sum(sums.square)};
+}
+
+// Inertia raises a surface by the square of the velocity. It stays where the cells cannot follow.
+void scale_surface(SolvedLevel& level, double factor) {
+  auto& d = *level.discretisation;
+  const SurfaceShape kept = d.surface.value();
+  SurfaceShape scaled = kept;
+  for (double& c : scaled.coefficient) c *= factor;
+  if (!d.move_surface(level.problem, scaled) && !d.move_surface(level.problem, kept))
+    throw std::logic_error("cells that were valid are no more");
+  d.rebuild_pattern();
 }
 
 }  // namespace
@@ -143,6 +155,7 @@ void take_over(const FlowState& kept, SolvedLevel& level) {
   const double factor = sums.square > 0 && sums.product > 0 ? sums.product / sums.square : 1;
   for (std::size_t k = 0; k < d.is_velocity.size(); ++k)
     if (d.is_velocity[k]) solution.local_element(k) *= factor;
+  if (d.surface) scale_surface(level, factor * factor);
   d.constraints.distribute(solution);
   solution.update_ghost_values();
   if (std::holds_alternative<FixedSlope>(level.problem.slope)) level.state.theta = theta;

@@ -56,6 +56,7 @@ void add_memory(const FlowProblem& problem, const Discretisation& d, const State
                  added ? at_quadrature(*added, d) : std::vector<double>());
   held.at_quadrature.memory_weight = m;
   held.at_quadrature.followed_slope = law.amount ? followed_slope(*law.amount) : 0;
+  held.at_quadrature.own_weight = law.amount ? law.amount->own_weight : 0;
   if (law.amount && law.amount->creep) {
     held.at_quadrature.creep = *law.amount->creep;
     const double frame = problem.frame ? problem.frame->rotation : 0;
@@ -146,6 +147,7 @@ HeldValues held_at(const HeldFields& held, const Discretisation& d, const MeshCe
     values.memory_weight = held.at_quadrature.memory_weight;
     values.followed_slope = held.at_quadrature.followed_slope;
     values.creep = held.at_quadrature.creep;
+    values.own_weight = held.at_quadrature.own_weight;
   }
   return values;
 }
@@ -169,7 +171,7 @@ AxesSources axes_sources(const FlowProblem& problem, const Discretisation& d, co
   for_each_point(d, state.solution, [&](const PointValues& at, std::size_t) {
     const double rate = regularised_rate(at.D, problem.regularisation);
     const double p = regularised_pressure(at.p, problem.regularisation).value;
-    const double phase = memory.turn * memory_turn(memory.law, 2 * rate / std::sqrt(p));
+    const double phase = memory.turn * memory_turn(memory.law, inertial_number(memory.law, rate, p));
     const std::complex<double> target = std::polar(1 / rate, phase) * as_complex(at.D);
     sources.rate.push_back(2 * memory.law.c * rate);
     sources.target_xx.push_back(target.real());
@@ -199,7 +201,8 @@ std::vector<double> added_target(const FlowProblem& problem, const Discretisatio
   std::vector<double> target;
   for_each_point(d, state.solution, [&](const PointValues& at, std::size_t point) {
     const double rate = regularised_rate(at.D, problem.regularisation);
-    const double I = 2 * rate / std::sqrt(regularised_pressure(at.p, problem.regularisation).value);
+    const double I =
+        inertial_number(memory.law, rate, regularised_pressure(at.p, problem.regularisation).value);
     const double lag = axes_lag(memory.law, memory.turn, as_complex(at.D) / rate, {xx[point], xz[point]}, I);
     target.push_back(added_friction(amount, memory.friction.friction(I).mu, psi[point], lag) -
                      followed_slope(amount) * std::log(I));
@@ -215,7 +218,7 @@ std::shared_ptr<ScalarField> carried_dilatancy(const FlowProblem& problem, const
   for_each_point(d, state.solution, [&](const PointValues& at, std::size_t) {
     rate.push_back(regularised_rate(at.D, problem.regularisation));
     const double p = regularised_pressure(at.p, problem.regularisation).value;
-    ln_I.push_back(remembered_ln_I(law, 2 * rate.back() / std::sqrt(p)));
+    ln_I.push_back(remembered_ln_I(law, inertial_number(law, rate.back(), p)));
   });
   const auto carried = [&](double c, const std::vector<double>& target) {
     renewed.clear();

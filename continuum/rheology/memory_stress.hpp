@@ -26,24 +26,30 @@ inline std::complex<double> as_complex(const PlaneTensor& a) { return {0.5 * (a.
 inline PlaneTensor as_tensor(std::complex<double> a) { return {a.real(), -a.real(), a.imag()}; }
 
 /// mu(I) + slope ln I + added + creep, kept positive: what the past adds to the friction, part of it as it
-/// would follow from I, the rest held, and creep at the spin given here. Where nothing changes any more
-/// `added` has slope ln I taken out.
+/// would follow from I = 2|D|/sqrt(p + own_weight), the rest held, and creep at the spin given here. Where
+/// nothing changes any more `added` has slope ln I taken out.
 template <class Law>
 struct FollowedLaw {
   const Law& law;
   double slope = 0, added = 0;
   Creep creep = {};  ///< of no slope: none
   double spin = 0;   ///< W
+  double own_weight = 0;
 };
 template <class Law>
 Strength strength(const FollowedLaw<Law>& followed, double rate, double pressure) {
-  const Strength F = strength(followed.law, rate, pressure);
-  const double mu = F.value / pressure, ln_I = std::log(2 * rate / std::sqrt(pressure));
+  // The law without the weight at the rate that has the same I there.
+  const double weighed = pressure + followed.own_weight, same_I = std::sqrt(pressure / weighed);
+  const Strength F = strength(followed.law, same_I * rate, pressure);
+  const double mu = F.value / pressure, ln_I = std::log(2 * rate / std::sqrt(weighed));
+  const double by_rate = same_I * F.d_rate;
+  const double mu_by_pressure =
+      (F.d_pressure - mu + 0.5 * rate * by_rate * (1 - pressure / weighed) / pressure) / pressure;
   const double creep = followed.creep.slope > 0 ? creep_friction(followed.creep, rate, followed.spin) : 0;
   const double by_ln_rate = followed.slope + (creep < 0 ? followed.creep.slope : 0);
   const FrictionValue all = kept_positive(mu + followed.slope * ln_I + followed.added + creep, 1);
-  const double by_pressure = (F.d_pressure - mu) / pressure - 0.5 * followed.slope / pressure;
-  return {pressure * all.mu, all.slope * (F.d_rate + pressure * by_ln_rate / rate),
+  const double by_pressure = mu_by_pressure - 0.5 * followed.slope / weighed;
+  return {pressure * all.mu, all.slope * (by_rate + pressure * by_ln_rate / rate),
           all.mu + pressure * all.slope * by_pressure};
 }
 

@@ -114,19 +114,25 @@ Vector growth_weights(const std::vector<double>& knots, double ln_I) {
   return row;
 }
 
-/// Knots of mu(I) beside a creep: the first, which says from where on I is remembered, and those above the I
-/// that the paths have where creep begins, in the mean of its logarithm.
-std::vector<double> knots_above(std::span<const PathsOfRun> runs, std::vector<double> knots, double ratio) {
-  double sum = 0, count = 0;
+/// Knots of mu(I) beside a creep: the first, which says from where on I is remembered, those above the I that
+/// the paths have where creep begins, in the mean of its logarithm, and in the flow octaves down from their
+/// largest I: there mu grows faster and faster with ln I.
+std::vector<double> knots_beside(std::span<const PathsOfRun> runs, std::vector<double> knots, double ratio) {
+  constexpr double flow_I = 1e-2;
+  double sum = 0, count = 0, largest = std::log(knots.front());
   for (const PathsOfRun& run : runs)
     for (const StressPath& path : run.paths) {
+      largest = std::max(largest, path.ln_I);
       if (!(path.spin_share > 0)) continue;
       sum += path.ln_I + std::log(path.spin_share);
       ++count;
     }
   const double begins = count > 0 ? ratio * std::exp(sum / count) : 0;
-  const double first = knots.front(), last = knots.back();
-  std::erase_if(knots, [&](double I) { return I > first && I < std::min(begins, last); });
+  const double first = knots.front(), last = std::exp(largest);
+  std::erase_if(knots,
+                [&](double I) { return I > first && (I < begins || I > flow_I / 1.5 || I > last / 1.5); });
+  const auto octaves = static_cast<int>(std::max(0.0, std::floor(std::log2(last / flow_I))));
+  for (int octave = -octaves; octave <= 0; ++octave) knots.push_back(std::ldexp(last, octave));
   return knots;
 }
 
@@ -146,7 +152,7 @@ struct Samples {
 
 Samples samples_of(std::span<const PathsOfRun> runs, const MemoryLaw& axes, const FrictionForm& alone,
                    double creep_ratio) {
-  Samples samples{creep_ratio, {FormKind::table, knots_above(runs, alone.knots, creep_ratio)}, {}, {}};
+  Samples samples{creep_ratio, {FormKind::table, knots_beside(runs, alone.knots, creep_ratio)}, {}, {}};
   for (std::size_t j = 0; j < samples.table.size(); ++j)
     samples.least.push_back(least_coefficient(samples.table, j));
   const double any = -std::numeric_limits<double>::infinity();
@@ -212,7 +218,8 @@ std::optional<StressDilatancy> stress_dilatancy(const Samples& samples) {
 }
 
 std::vector<AmountScore> scores_of(std::span<const PathsOfRun> runs, const MemoryLaw& law,
-                                   const FormCurve& table, const FormCurve& alone) {
+                                   const FormCurve& alone) {
+  const TabulatedLaw table = memory_friction(law);
   std::vector<AmountScore> scores;
   for (const PathsOfRun& run : runs) {
     double squares[2][2] = {};
@@ -220,9 +227,10 @@ std::vector<AmountScore> scores_of(std::span<const PathsOfRun> runs, const Memor
     for (const StressPath& path : run.paths) {
       const std::size_t zone = path.ln_I < std::log(bed_I) ? 0 : 1;
       const double I = std::exp(path.ln_I), amount = std::abs(path.stress);
+      const double own_I = I * std::sqrt(1 + law.amount->own_weight / path.p);
       ++paths[zone];
-      squares[zone][0] += std::pow(amount - table.at(I).value - added_amount(path, law), 2);
-      squares[zone][1] += std::pow(amount - alone.at(I).value, 2);
+      squares[zone][0] += std::pow(amount - table.friction(I).mu - added_amount(path, law), 2);
+      squares[zone][1] += std::pow(amount - alone.at(own_I).value, 2);
     }
     const auto rms = [&](std::size_t zone, std::size_t which) {
       return std::sqrt(squares[zone][which] / static_cast<double>(paths[zone]));
@@ -241,9 +249,10 @@ double added_amount(const StressPath& path, const MemoryLaw& law) {
          (amount.creep ? creep_friction(*amount.creep, 1, path.spin_share) : 0);
 }
 
-AmountFit fit_amount(std::span<const PathsOfRun> runs, std::span<const PathsOfRun> held_out,
-                     const MemoryLaw& axes, const CalibratedLaw& alone) {
+AmountFit fit_amount(std::span<const PathsOfRun> runs, std::span<const PathsOfRun> held_out, MemoryLaw axes,
+                     const CalibratedLaw& alone, double own_weight) {
   AmountFit found;
+  axes.mu.I = knots_beside(runs, alone.form.knots, 0);  // ends of what is remembered
   Trial best;
   for (const double creep_ratio : {0.02, 0.035, 0.05, 0.07, 0.1}) {
     const Samples samples = samples_of(runs, axes, alone.form, creep_ratio);
@@ -262,6 +271,7 @@ AmountFit fit_amount(std::span<const PathsOfRun> runs, std::span<const PathsOfRu
   Samples of_best = samples_of(runs, axes, alone.form, best.trial.creep_ratio);
   const auto more = best.x.tail<3>();
   found.law = {more[amount_swelling], best.trial.c_nu, best.trial.c_psi, more[amount_lag]};
+  found.law.own_weight = own_weight;
   if (more[amount_creep] > 0) found.law.creep = {more[amount_creep], best.trial.creep_ratio};
   found.ci99_sectors = sector_intervals(best, of_best.least);
   found.measured = stress_dilatancy(of_best);
@@ -276,9 +286,10 @@ AmountFit fit_amount(std::span<const PathsOfRun> runs, std::span<const PathsOfRu
   }
   of_best.table.slope_besides = followed_slope(found.law);
   found.table = calibrated(left, of_best.table, 0);
-  const FormCurve table = found.table.curve(), without = alone.curve();
-  found.scores = scores_of(runs, law, table, without);
-  found.predictions = scores_of(held_out, law, table, without);
+  law.mu = std::get<FrictionTable>(measured_friction(found.table.form, found.table.fit.law, {}, 0, 0));
+  const FormCurve without = alone.curve();
+  found.scores = scores_of(runs, law, without);
+  found.predictions = scores_of(held_out, law, without);
   return found;
 }
 

@@ -53,7 +53,7 @@ double added_amount(const StressPath& path, const MemoryLaw& law);
 /// is left. `axes`: the law of the axes, `alone`: its mu(I) without memory, whose knots are kept but for
 /// those inside where creep counts: one speed cannot tell I from |D|/|W|. Nothing of `held_out` enters but
 /// the predictions. Throws InputError where the paths do not determine it.
-AmountFit fit_amount(std::span<const PathsOfRun> runs, std::span<const PathsOfRun> held_out,
-                     const MemoryLaw& axes, const CalibratedLaw& alone);
+AmountFit fit_amount(std::span<const PathsOfRun> runs, std::span<const PathsOfRun> held_out, MemoryLaw axes,
+                     const CalibratedLaw& alone, double own_weight = 0);
 
 }  // namespace drumlin::coupling

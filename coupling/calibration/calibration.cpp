@@ -131,8 +131,8 @@ void assess(Calibration& calibration) {
 void add_laws_of_the_bed(Calibration& calibration) {
   const CalibratedLaw amount = amount_law(calibration.runs, calibration.options.draws);
   if (calibration.options.memory) {
-    calibration.memory =
-        memory_calibration(calibration.runs, calibration.held_out, amount, calibration.options.amount);
+    calibration.memory = memory_calibration(calibration.runs, calibration.held_out, amount,
+                                            calibration.options.amount_own_weight);
     calibration.rheology.memory = measured_memory(*calibration.memory);
   }
   if (calibration.options.nonlocal) {

@@ -21,7 +21,8 @@ struct CalibrationOptions {
   bool memory = false;                ///< needs the maps and amount_blocks of the runs
   int draws = 200;
   bool nonlocal = false;  ///< needs the maps and amount_blocks of the runs
-  bool amount = false;    ///< with `memory`: past strain adds to the amount of the stress
+  /// With `memory`: what is added to the amount of the stress is fitted, with this AmountMemory::own_weight.
+  std::optional<double> amount_own_weight = {};
   std::function<void()> before_each_draw = {};  ///< of mu; may throw to end a long fit
 };
 

@@ -31,12 +31,14 @@ std::optional<RobustFriction> fitted_bed_line(std::span<const RunEvidence> runs)
   return fit_friction(bed, {.kind = FormKind::log});
 }
 
-Runs paths_of(std::span<const RunEvidence> runs, const FormCurve& amount, std::vector<double>* shares) {
+Runs paths_of(std::span<const RunEvidence> runs, const FormCurve& amount, double own_weight,
+              std::vector<double>* shares) {
   Runs all;
   for (const RunEvidence& run : runs) {
     const PathFields fields(*run.map);
     if (shares != nullptr) shares->push_back(fields.share_from_displacements());
     all.push_back(paths_of_run(run.name, stress_paths(fields), amount));
+    add_own_weight(all.back().paths, own_weight);
   }
   return all;
 }
@@ -263,12 +265,12 @@ MemoryLaw measured_memory(const MemoryCalibration& found) {
 }
 
 MemoryCalibration memory_calibration(std::span<const RunEvidence> runs, std::span<const RunEvidence> held_out,
-                                     const CalibratedLaw& amount_over_I, bool amount_remembers) {
+                                     const CalibratedLaw& amount_over_I, std::optional<double> own_weight) {
   MemoryCalibration found;
   found.amount = amount_over_I;
   found.bed_line = fitted_bed_line(runs);
   const FormCurve amount = found.amount.curve();
-  const Runs paths = paths_of(runs, amount, &found.from_displacements);
+  const Runs paths = paths_of(runs, amount, own_weight.value_or(0), &found.from_displacements);
   require_bed(paths);
   found.leads = lead_trials(paths);
   AxisMemory start = first_guess;
@@ -281,10 +283,10 @@ MemoryCalibration memory_calibration(std::span<const RunEvidence> runs, std::spa
   found.carried = carried_trials(paths, found.bounded);
   found.law = solvable_law(found.carried);
   for (const PathsOfRun& run : paths) found.scores.push_back(memory_score(run, found.law));
-  const Runs others = paths_of(held_out, amount, nullptr);
+  const Runs others = paths_of(held_out, amount, own_weight.value_or(0), nullptr);
   for (const PathsOfRun& run : others) found.predictions.push_back(memory_score(run, found.law));
-  if (amount_remembers) {
-    found.remembered = fit_amount(paths, others, measured_memory(found), found.amount);
+  if (own_weight) {
+    found.remembered = fit_amount(paths, others, measured_memory(found), found.amount, *own_weight);
     refuse_what_no_law_has(found.remembered->law);
   }
   const double radius = needed_number(runs.front().map->header, &RunHeader::drum_radius, "maps.h5");

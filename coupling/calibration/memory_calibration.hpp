@@ -61,10 +61,10 @@ CalibratedLaw amount_law(std::span<const RunEvidence> runs, int draws);
 
 /// `runs`, `held_out`: with their maps; `amount`: of `runs`. Nothing of what is held out enters but
 /// `predictions`. Throws InputError where a map lacks a field, has no drum, or where the runs have too little
-/// bed: fewer than 100 paths that end in it, or in fewer than five sectors of 15 deg. `amount_remembers`:
-/// what past strain adds to the amount is fitted as well, after the axes.
+/// bed: fewer than 100 paths that end in it, or in fewer than five sectors of 15 deg. `own_weight`: what
+/// is added to the amount is fitted as well, after the axes, all with this AmountMemory::own_weight.
 MemoryCalibration memory_calibration(std::span<const RunEvidence> runs, std::span<const RunEvidence> held_out,
-                                     const CalibratedLaw& amount, bool amount_remembers = false);
+                                     const CalibratedLaw& amount, std::optional<double> own_weight = {});
 
 /// The law as it crosses to the continuum: the amount as its table.
 MemoryLaw measured_memory(const MemoryCalibration& found);

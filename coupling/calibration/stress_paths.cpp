@@ -28,7 +28,7 @@ std::vector<PathStep> traced_back(const PathFields& fields, double x, double z, 
     if (!is_known(middle)) break;
     const double rate = std::abs(middle.rate);
     steps.push_back({rate * time, middle.spin * time, middle.rate / rate, std::log(inertial(middle)),
-                     middle.dilation / (2 * rate)});
+                     middle.dilation / (2 * rate), middle.p});
     strain += rate * time;
     x -= time * middle.u;
     z -= time * middle.w;
@@ -59,12 +59,21 @@ std::vector<StressPath> stress_paths(const PathFields& fields, const PathOptions
                       std::log(inertial(point)),
                       std::abs(point.spin / point.rate),
                       point.stress / point.p,
+                      point.p,
                       traced_back(fields, x, z, options)};
       if (path.steps.empty()) continue;
       std::reverse(path.steps.begin(), path.steps.end());
       paths.push_back(std::move(path));
     }
   return paths;
+}
+
+void add_own_weight(std::vector<StressPath>& paths, double w) {
+  const auto weigh = [w](auto& at) { at.ln_I -= 0.5 * std::log1p(w / at.p); };
+  for (StressPath& path : paths) {
+    weigh(path);
+    for (PathStep& step : path.steps) weigh(step);
+  }
 }
 
 }  // namespace drumlin::coupling

@@ -14,6 +14,7 @@ struct PathStep {
   Deviator axis;         ///< n = D/|D|
   double ln_I = 0;       ///< of I = 2|D|/sqrt(p)
   double dilatancy = 0;  ///< div v/(2|D|)
+  double p = 0;          ///< rho0 g d
 };
 
 /// A node and the path of the material that is there now.
@@ -25,6 +26,7 @@ struct StressPath {
   double ln_I = 0;              ///< at the node
   double spin_share = 0;        ///< |W|/|D| at the node
   Deviator stress;              ///< s/p at the node
+  double p = 0;                 ///< at the node, rho0 g d
   std::vector<PathStep> steps;  ///< from the oldest to the node
 };
 
@@ -41,5 +43,8 @@ struct PathOptions {
 /// One path per node of the map that lies in the packing as `options` say, column after column from -x to x,
 /// each from below to above.
 std::vector<StressPath> stress_paths(const PathFields& fields, const PathOptions& options = {});
+
+/// I = 2|D|/sqrt(p + w) in place of 2|D|/sqrt(p) at every node and along every path.
+void add_own_weight(std::vector<StressPath>& paths, double w);
 
 }  // namespace drumlin::coupling

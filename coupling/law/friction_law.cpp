@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "coupling/common/errors.hpp"
 
@@ -11,6 +13,14 @@ namespace drumlin {
 namespace {
 
 constexpr double least_mu = 1e-3;  // m of kept_positive()
+
+// dmu/dln I at the last point of what is straight in I through the last two; of the cubic before it at most
+// three chords in ln I, beyond which it would not grow everywhere.
+double last_slope(const std::vector<double>& I, const std::vector<double>& mu) {
+  const std::size_t n = I.size() - 1;
+  const double growth = mu[n] - mu[n - 1];
+  return growth * std::min(I[n] / (I[n] - I[n - 1]), 3 / std::log(I[n] / I[n - 1]));
+}
 
 }  // namespace
 
@@ -34,10 +44,17 @@ FrictionValue SaturatingLaw::friction(double I) const {
 
 FrictionValue ConstantLaw::friction(double /*I*/) const { return {mu, 0}; }
 
-TabulatedLaw::TabulatedLaw(const std::vector<double>& I, std::vector<double> mu)
-    : mu_of_ln_I_(logarithms(I), std::move(mu), MonotoneCubic::Outside::goes_on) {}
+TabulatedLaw::TabulatedLaw(const std::vector<double>& I, const std::vector<double>& mu, Beyond beyond)
+    : mu_of_ln_I_(logarithms(I), mu, MonotoneCubic::Outside::goes_on,
+                  beyond == Beyond::straight_in_I ? last_slope(I, mu) : std::optional<double>()),
+      straight_from_(beyond == Beyond::straight_in_I ? I.back() : std::numeric_limits<double>::infinity()) {}
 
 FrictionValue TabulatedLaw::friction(double I) const {
+  if (I > straight_from_) {
+    const CurvePoint end = mu_of_ln_I_.at(std::log(straight_from_));
+    const double share = I / straight_from_;
+    return kept_positive(end.value + end.slope * (share - 1), end.slope * share);
+  }
   const CurvePoint at = mu_of_ln_I_.at(std::log(I));
   return kept_positive(at.value, at.slope);
 }

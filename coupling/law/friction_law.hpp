@@ -57,12 +57,16 @@ struct ConstantLaw {
 /// would be ill-posed there); kept positive.
 class TabulatedLaw {
  public:
+  /// How mu goes on above the last point, straight as the last two say.
+  enum class Beyond { straight_in_ln_I, straight_in_I };
   /// I ascending, mu growing, two points at least.
-  TabulatedLaw(const std::vector<double>& I, std::vector<double> mu);
+  TabulatedLaw(const std::vector<double>& I, const std::vector<double>& mu,
+               Beyond beyond = Beyond::straight_in_ln_I);
   FrictionValue friction(double I) const;
 
  private:
   MonotoneCubic mu_of_ln_I_;
+  double straight_from_;  // I; infinite: nowhere
 };
 
 /// Every form of mu(I) that a file can hold. Code that evaluates a law at many points visits it once.

@@ -6,6 +6,10 @@
 
 namespace drumlin {
 
+double inertial_number(const MemoryLaw& law, double rate, double p) {
+  return 2 * rate / std::sqrt(p + (law.amount ? law.amount->own_weight : 0));
+}
+
 double memory_turn(double chi, double c, double I_low, double I_high, double ln_I) {
   const double low = std::log(I_low), high = std::log(I_high);
   const double share = std::clamp((ln_I - low) / (high - low), 0.0, 1.0);
@@ -40,6 +44,10 @@ double creep_friction(const Creep& creep, double rate, double spin) {
 
 double followed_slope(const AmountMemory& law) { return 0.5 * law.swelling * law.c_nu; }
 
-TabulatedLaw memory_friction(const MemoryLaw& law) { return {law.mu.I, law.mu.mu}; }
+TabulatedLaw memory_friction(const MemoryLaw& law) {
+  const bool weighs = law.amount && law.amount->own_weight > 0;
+  return {law.mu.I, law.mu.mu,
+          weighs ? TabulatedLaw::Beyond::straight_in_I : TabulatedLaw::Beyond::straight_in_ln_I};
+}
 
 }  // namespace drumlin

@@ -17,6 +17,9 @@
 
 namespace drumlin {
 
+/// 2|D|/sqrt(p + own weight) at |D| > 0 and p > 0: the I of everything here.
+double inertial_number(const MemoryLaw& law, double rate, double p);
+
 /// chi(I) in rad at I > 0: chi_deg up to I_low, atan(1/c) from I_high on, a cubic in ln I between, without a
 /// kink. In steady simple shear A = exp(i t (chi - atan(1/c))) cos(atan(1/c)) n, so that chi = atan(1/c) is
 /// mu(I) exactly there.
@@ -44,7 +47,8 @@ double creep_friction(const Creep& creep, double rate, double spin);
 /// short way: a solver that takes it into mu(I), and out of what it holds, does not swing.
 double followed_slope(const AmountMemory& law);
 
-/// What evaluates mu(I) of the memory.
+/// What evaluates mu(I) of the memory. With an own weight it goes on straight in I (da Cruz et al., Phys.
+/// Rev. E 72, 021309 (2005), for discs) where the table ends, else straight in ln I.
 TabulatedLaw memory_friction(const MemoryLaw& law);
 
 }  // namespace drumlin

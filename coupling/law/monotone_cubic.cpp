@@ -17,7 +17,8 @@ double inner_slope(double left, double right, double h_left, double h_right) {
 
 }  // namespace
 
-MonotoneCubic::MonotoneCubic(std::vector<double> x, std::vector<double> y, Outside outside)
+MonotoneCubic::MonotoneCubic(std::vector<double> x, std::vector<double> y, Outside outside,
+                             std::optional<double> last_slope)
     : x_(std::move(x)), y_(std::move(y)), slope_(x_.size(), 0) {
   assert(!x_.empty() && x_.size() == y_.size() && (outside == Outside::level || x_.size() > 1));
   const auto h = [&](std::size_t i) { return x_[i + 1] - x_[i]; };
@@ -26,7 +27,7 @@ MonotoneCubic::MonotoneCubic(std::vector<double> x, std::vector<double> y, Outsi
     slope_[i] = inner_slope(chord(i - 1), chord(i), h(i - 1), h(i));
   if (outside == Outside::goes_on) {
     slope_.front() = chord(0);
-    slope_.back() = chord(x_.size() - 2);
+    slope_.back() = last_slope.value_or(chord(x_.size() - 2));
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 // A smooth curve through the points of a table.
+#include <optional>
 #include <vector>
 
 namespace drumlin {
@@ -20,8 +21,10 @@ class MonotoneCubic {
     level,   ///< stays at the last value
     goes_on  ///< goes on as the chord of the last two points
   };
-  /// x ascending, as many y; `goes_on` needs two points.
-  MonotoneCubic(std::vector<double> x, std::vector<double> y, Outside outside);
+  /// x ascending, as many y; `goes_on` needs two points. `last_slope`: where it goes on, in place of the last
+  /// chord's; of its sign and at most three times as steep.
+  MonotoneCubic(std::vector<double> x, std::vector<double> y, Outside outside,
+                std::optional<double> last_slope = {});
   CurvePoint at(double x) const;
 
  private:

@@ -138,6 +138,8 @@ void describe(Visitor& v, AmountTable& t) {
           required("", above(0, 1e6), "Share of the dilatancy felt that is renewed per unit of shear."));
   v.value("lag", t.law.lag,
           required("", at_least(-1, 1), "By how much the amount falls per lag of the remembered axes."));
+  v.value("own_weight", t.law.own_weight,
+          defaulted("rho0 g d", at_least(0, 100), "w in I = 2|D|/sqrt(p + w), of amount and axes."));
   v.optional_table("creep", t.creep, "What little shear per turn takes off the amount; absent: nothing.");
 }
 

@@ -70,6 +70,9 @@ struct AmountMemory {
   double c_psi = 0;     ///< share of the dilatancy that is felt which is renewed per unit of shear, > 0
   double lag = 0;       ///< by how much the amount falls per lag of the axes, see axes_lag()
   std::optional<Creep> creep = {};  ///< absent: the amount falls with I alone
+  /// w in I = 2|D|/sqrt(p + w), rho0 g d, of the amount and the axes: near a free surface grains rearrange by
+  /// their own weight, too.
+  double own_weight = 0;
 };
 
 /// Memory of the axes (coupling/law/memory_law.hpp): the material carries the axes of its past strain along,

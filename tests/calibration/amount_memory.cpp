@@ -97,9 +97,10 @@ TEST(AmountMemory, CreepTakesOffWhatLittleShearPerTurnLacks) {
 }
 
 /// Paths of a drum whose amount is that of `law`.
-PathsOfRun remembering_paths(double surface_speed) {
+PathsOfRun remembering_paths(double surface_speed, double own_weight = 0) {
   const FieldMap map = remembering_drum({.surface_speed = surface_speed});
   PathsOfRun run{"drum", stress_paths(PathFields(map, {.smoothing = 0.3})), {}};
+  add_own_weight(run.paths, own_weight);
   for (StressPath& path : run.paths) {
     path.stress = Deviator(known_amount(std::exp(path.ln_I)) + added_amount(path, law), 0);
     run.amounts.push_back(known_amount(std::exp(path.ln_I)));
@@ -117,12 +118,16 @@ CalibratedLaw without_memory(const PathsOfRun& run) {
   return calibrated({points}, {.kind = FormKind::table, .knots = table_knots(I)}, 0);
 }
 
-TEST(AmountFit, KnownCoefficientsComeBackAndPredictAnotherSpeed) {
-  const PathsOfRun run = remembering_paths(1.5), other = remembering_paths(2.5);
+class AmountFitOf : public ::testing::TestWithParam<double> {};
+
+TEST_P(AmountFitOf, KnownCoefficientsComeBackAndPredictAnotherSpeed) {
+  const double own_weight = GetParam();
+  const PathsOfRun run = remembering_paths(1.5, own_weight), other = remembering_paths(2.5, own_weight);
   const CalibratedLaw alone = without_memory(run);
   MemoryLaw axes = law;
   axes.amount.reset();
-  const AmountFit fit = fit_amount({&run, 1}, {&other, 1}, axes, alone);
+  const AmountFit fit = fit_amount({&run, 1}, {&other, 1}, axes, alone, own_weight);
+  EXPECT_EQ(fit.law.own_weight, own_weight);
   EXPECT_EQ(fit.law.c_nu, 4);
   EXPECT_EQ(fit.law.c_psi, 16);
   EXPECT_NEAR(fit.law.swelling, 0.008, 2e-4);
@@ -134,6 +139,19 @@ TEST(AmountFit, KnownCoefficientsComeBackAndPredictAnotherSpeed) {
   ASSERT_EQ(fit.predictions.size(), 1U);
   EXPECT_LT(fit.predictions[0].bed, 0.2 * fit.predictions[0].bed_alone);
   EXPECT_LT(fit.predictions[0].flow, 0.2 * fit.predictions[0].flow_alone);
+}
+INSTANTIATE_TEST_SUITE_P(OwnWeight, AmountFitOf, ::testing::Values(0.0, 3.0));
+
+TEST(StressPaths, OwnWeightLessensIWhereThePressureIsSmall) {
+  const FieldMap map = remembering_drum({});
+  const std::vector<StressPath> plain = stress_paths(PathFields(map, {.smoothing = 0.3}));
+  std::vector<StressPath> weighed = plain;
+  add_own_weight(weighed, 2);
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    EXPECT_NEAR(std::exp(2 * (weighed[i].ln_I - plain[i].ln_I)), plain[i].p / (plain[i].p + 2), 1e-12);
+    const PathStep &before = plain[i].steps.front(), &after = weighed[i].steps.front();
+    EXPECT_NEAR(std::exp(2 * (after.ln_I - before.ln_I)), before.p / (before.p + 2), 1e-12);
+  }
 }
 
 TEST(AmountFit, FindsNothingWhereTheAmountFollowsI) {

@@ -85,7 +85,9 @@ TEST(RheologyFile, WhatWasWrittenIsReadBack) {
   expect_written(fit, {"swelling = 0.009\n", "c_nu = 4.0\n", "c_psi = 24.0\n", "lag = -0.05\n"});
   expect_lacks(rheology_text(fit), "creep");
   fit.memory->amount->creep = Creep{.slope = 0.016, .ratio = 0.035};
-  expect_written(fit, {"[memory.amount.creep]\n", "slope = 0.016\n", "ratio = 0.035\n"});
+  fit.memory->amount->own_weight = 4;
+  expect_written(fit,
+                 {"[memory.amount.creep]\n", "slope = 0.016\n", "ratio = 0.035\n", "own_weight = 4.0\n"});
   const TemporaryFolder folder;
   write_rheology(folder / "law.toml", fit);
   EXPECT_EQ(rheology_text(read_rheology(folder / "law.toml")), rheology_text(fit));
@@ -118,6 +120,8 @@ TEST(RheologyFile, MemoryNamesItsFaults) {
          "memory.amount.swelling");
   expect("mu = [0.2, 0.3]\n", table + "swelling = 0.01\nc_nu = 4\nc_psi = 24\nlag = 2\n",
          "memory.amount.lag");
+  expect("mu = [0.2, 0.3]\n", table + "swelling = 0.01\nc_nu = 4\nc_psi = 24\nlag = 0\nown_weight = -1\n",
+         "memory.amount.own_weight");
 }
 
 /// The smallest file with another table [mu].

@@ -47,6 +47,22 @@ TEST(MonotoneCubic, OnePointIsAConstant) {
   }
 }
 
+TEST(TabulatedLaw, GoesOnStraightInIWithoutAKink) {
+  const TabulatedLaw table({1e-3, 1e-2, 2e-2, 4e-2}, {0.25, 0.26, 0.275, 0.305},
+                           TabulatedLaw::Beyond::straight_in_I);
+  EXPECT_NEAR(table.friction(0.1).mu, 0.305 + 1.5 * 0.06, 1e-5);  // as far as it is kept positive
+  EXPECT_NEAR(table.friction(0.1).slope, 1.5 * 0.1, 1e-5);
+  const double h = 1e-7;
+  for (const double I : {0.005, 0.015, 0.03, 0.0399, 0.0401, 0.2})
+    EXPECT_NEAR(table.friction(I).slope, I * (table.friction(I + h).mu - table.friction(I - h).mu) / (2 * h),
+                1e-6)
+        << I;
+  EXPECT_NEAR(table.friction(0.04 * (1 - 1e-9)).slope, table.friction(0.04 * (1 + 1e-9)).slope, 1e-7);
+  // Far apart the cubic before it would not grow everywhere.
+  const TabulatedLaw wide({1e-5, 1e-3}, {0.2, 0.3}, TabulatedLaw::Beyond::straight_in_I);
+  for (double I = 1e-5; I < 1; I *= 1.3) EXPECT_GE(wide.friction(I).slope, 0) << I;
+}
+
 TEST(TabulatedLaw, OfPointsOnALogarithmIsThatLogarithmInsideAndOutside) {
   const LogLaw log{0.35, 0.013};
   std::vector<double> mu;

@@ -89,17 +89,21 @@ TEST(MemoryStress, NeverGivesWorkBack) {
   }
 }
 
-TEST(MemoryStress, FollowsTheRateAndThePressureWithCreep) {
-  for (const double spin : {0.0, 0.3, 30.0}) {  // none, none yet, creep
-    const FollowedLaw<LogLaw> law{mu, 0.02, 0.1, {.slope = 0.015, .ratio = 0.5}, spin};
+TEST(MemoryStress, FollowsTheRateAndThePressureWithCreepAndOwnWeight) {
+  struct Case {
+    double spin, own_weight;
+  };
+  for (const auto& [spin, own_weight] : {Case{0, 0}, {0.3, 0}, {30, 0}, {30, 4}, {0, 0.5}}) {
+    const FollowedLaw<LogLaw> law{mu, 0.02, 0.1, {.slope = 0.015, .ratio = 0.5}, spin, own_weight};
     const double rate = 0.2, p = 3, h = 1e-6;
     const Strength at = strength(law, rate, p);
     EXPECT_NEAR(at.d_rate, (strength(law, rate + h, p).value - strength(law, rate - h, p).value) / (2 * h),
                 1e-7);
     EXPECT_NEAR(at.d_pressure,
                 (strength(law, rate, p + h).value - strength(law, rate, p - h).value) / (2 * h), 1e-7);
-    EXPECT_NEAR(at.value - strength(FollowedLaw<LogLaw>{mu, 0.02, 0.1}, rate, p).value,
-                p * creep_friction(law.creep, rate, spin), 1e-5);  // as far as both are kept positive
+    const double I = 2 * rate / std::sqrt(p + own_weight);
+    EXPECT_NEAR(at.value / p - creep_friction(law.creep, rate, spin),
+                mu.friction(I).mu + 0.02 * std::log(I) + 0.1, 1e-5);  // as far as both are kept positive
   }
 }
 

@@ -110,6 +110,18 @@ TEST(MovingSurface, LooksTheSameFromATurningDrum) {
   EXPECT_NEAR(height(*turning.surface(), 3), height(*laboratory.surface(), 3), 1e-4);
 }
 
+TEST(MovingSurface, StartsAsHighAsTheSpeedOfItsNeighbourSays) {
+  FlowProblem slow = small_drum_with_surface(2), fast = slow;
+  const auto velocity = slow.moving_surface->wall_velocity;
+  fast.moving_surface->wall_velocity = [velocity](Vec2 point, Vec2 left, Vec2 right) {
+    const Vec2 v = velocity(point, left, right);
+    return Vec2{1.2 * v.x, 1.2 * v.z};
+  };
+  const FlowField first = converged(slow, one_mesh());
+  const FlowSolution from = ended(solve_flow_from(first.state(), fast, one_mesh()));
+  EXPECT_NEAR(from.report.surface_steps.front().height, 1.44 * largest_height(*first.surface()), 1e-6);
+}
+
 TEST(MovingSurface, StartsWhereThatOfANeighbourIs) {
   const FlowProblem problem = small_drum_with_surface(2);
   const FlowField first = converged(problem, one_mesh());

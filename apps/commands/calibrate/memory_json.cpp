@@ -122,6 +122,7 @@ Json remembered_json(const std::optional<coupling::AmountFit>& fit) {
   return {{"swelling", coefficient(fit->law.swelling, fit->ci99_sectors[coupling::amount_swelling])},
           {"lag", coefficient(fit->law.lag, fit->ci99_sectors[coupling::amount_lag])},
           {"creep", creep},
+          {"own_weight", fit->law.own_weight},
           {"c_nu", fit->law.c_nu},
           {"c_psi", fit->law.c_psi},
           {"rms_misfit", fit->table.fit.rms_misfit},

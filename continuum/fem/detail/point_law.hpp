@@ -72,8 +72,8 @@ struct MemoryPointLaw {
     const double m = held.memory_weight, slope = held.followed_slope;
     if (slope == 0) return memory_response(mu, m, memory, r, at.D, at.p, dual);
     const double W = held.spin.empty() ? spin_of(at.motion) : held.spin[point];
-    return memory_response(FollowedLaw<Friction>{mu, slope, memory.added, held.creep, W}, m, memory, r, at.D,
-                           at.p, dual);
+    return memory_response(FollowedLaw<Friction>{mu, slope, memory.added, held.creep, W, held.own_weight}, m,
+                           memory, r, at.D, at.p, dual);
   }
 };
 
