@@ -268,7 +268,7 @@ def judged(cell):
     return number(cell["value"]) if cell["met"] else f"**{number(cell['value'])}**"
 
 
-BLIND = (3, 12)
+BLIND = (3, 8, 12)
 
 
 def by_row(rows):
@@ -309,23 +309,23 @@ def scores():
 
 
 def sizes():
-    """Half filled drums with friction 0.4 of three sizes, and the continuum of the same drums, read at the same places."""
+    """Half filled drums with friction 0.4 of four sizes, and the continuum of the same drums, read at the same places."""
     record = read("sizes/sizes.json")
     runs = [run for run in record["runs"] if run["filling"] == "half" and run["friction"] == 0.4]
-    diameters, words = sorted({run["diameter_mm"] for run in runs}), {"theta_deg": "theta (deg)", "H": "H (d)", "shear_rate": "shear rate"}
+    diameters, words = sorted({run["diameter_mm"] for run in runs}), {"theta_deg": "theta (deg)", "H": "H (d)", "shear_rate": "shear rate", "lag_deg": "lag (deg)"}
 
     def row(name, value):
         return [name, *(value(key, diameter) for key in words for diameter in diameters)]
 
     def particles(key, diameter):
-        values = [run[key]["value"] for run in runs if run["diameter_mm"] == diameter]
+        values = [run["layer"][key] if key in run["layer"] else run[key]["value"] for run in runs if run["diameter_mm"] == diameter]
         return number(sum(values) / len(values))
 
     def flow(law):
-        found = {(key, one["diameter_mm"]): one["scalars"][key]["continuum"] for one in record["continuum"] if one["law"] == law for key in words}
+        found = {(key, one["diameter_mm"]): one["scalars"][key]["continuum"] for one in record["continuum"] if one["law"] == law for key in words if key in one["scalars"]}
         return lambda key, diameter: number(found[key, diameter]["value"] if isinstance(found.get((key, diameter)), dict) else found.get((key, diameter)))
 
-    rows = [row("particles", particles), row("power of D", lambda key, diameter: interval(record["powers"]["0.4"][key]) if diameter == diameters[0] else "")]
+    rows = [row("particles", particles), row("power of D", lambda key, diameter: interval(record["powers"]["0.4"][key]) if diameter == diameters[0] and key != "lag_deg" else "")]
     rows += [row(law, flow(law)) for law in dict.fromkeys(one["law"] for one in record["continuum"])]
     return table(["", *(f"{name}: {diameter:g} mm" if diameter == diameters[0] else f"{diameter:g}" for name in words.values() for diameter in diameters)], rows)
 

@@ -15,6 +15,7 @@ import numpy
 import style
 import whole_file
 from bed_edges import ANGLES, fields_of, rounded, slip_length, wall_of
+from drum_maps import read_maps
 
 plt = style.plt
 SCALARS = ("theta_deg", "theta_com_deg", "Q", "H", "shear_rate", "lambda", "I_th", "nu_bulk", "k_flowing")
@@ -34,6 +35,20 @@ def flowing_of(run, depth, law):
     return {"stress_ratio": float(numpy.average(ratio, weights=zz[at])), "law": float(numpy.average(mu, weights=zz[at]))}
 
 
+def layer_of(run):
+    """|s|/p where I is 0.02 to 0.03 within half a radius of the middle, and by how much its axes lag behind those of the strain rate (deg)."""
+    header, grids = read_maps(run / "measured" / "maps.h5")
+    value = {name: numpy.ma.filled(field, numpy.nan) for name, field in grids.items() if field.ndim == 2}
+    near = (abs(grids["x"]) < float(header["drum_radius"]) / 2)[None, :]
+    with numpy.errstate(invalid="ignore"):
+        taken = near & (value["I"] > 0.02) & (value["I"] < 0.03) & (value["nu"] > 0.7)
+    stress = (value["sigma_zz"] - value["sigma_xx"]) / 2 + 0.5j * (value["sigma_xz"] + value["sigma_zx"])
+    rate = value["D_xx"] / 2 - value["D_zz"] / 2 + 1j * value["D_xz"]
+    lag = numpy.degrees(numpy.angle(stress[taken] * rate[taken].conj())) / 2
+    ratio = abs(stress[taken]) * 2 / (value["sigma_xx"] + value["sigma_zz"])[taken]
+    return {"lag_deg": float(numpy.nanmean(lag)), "stress_ratio": float(numpy.nanmean(ratio)), "nodes": int(numpy.isfinite(ratio).sum())}
+
+
 def run_of(run, law):
     measured, record = (json.loads((run / name).read_text()) for name in ("measured/measured.json", "run.json"))
     scene = tomllib.loads((run / "scene.toml").read_text())
@@ -46,7 +61,7 @@ def run_of(run, law):
              "steady": measured["steadiness"]["steady"]}
     found |= {name: {key: measured[name][key] for key in ("value", "ci99")} for name in SCALARS}
     found |= {f"slip_{angle}": {"value": wall["slip"][ANGLES.index(angle)]} for angle in SLIP_AT}
-    return found | {"slip_length": slip_length(wall), "flowing": flowing_of(run, found["H"]["value"], law)}
+    return found | {"slip_length": slip_length(wall), "layer": layer_of(run), "flowing": flowing_of(run, found["H"]["value"], law)}
 
 
 def powers_of(runs):
@@ -90,13 +105,13 @@ def draw(record, picture):
             full = "full" if filling == "half" else "none"
             axes.plot([run["D"] for run in here], [run[name]["value"] for run in here], marker, color=colour, fillstyle=full, ls="none",
                       label=f"particles, {filling}, friction {friction:g}")
-        for law, marker in zip(dict.fromkeys(flow["law"] for flow in record["continuum"]), "x+142"):
+        for law, marker in zip(dict.fromkeys(flow["law"] for flow in record["continuum"]), "x+1423"):
             flows = [flow for flow in record["continuum"] if flow["law"] == law and name in flow["scalars"]]
             axes.plot([flow["diameter_mm"] / 3.3 for flow in flows], [number(flow["scalars"][name]["continuum"]) for flow in flows], marker, ms=9,
                       color=style.CONTINUUM, ls="none", label=f"continuum, {law}")
         axes.set_xscale("log")
         axes.set_yscale("log")
-        axes.set_xticks([45, 91, 136], ["45", "91", "136"])
+        axes.set_xticks([45, 91, 136, 273], ["45", "91", "136", "273"])
         axes.minorticks_off()
         axes.yaxis.set_major_locator(style.matplotlib.ticker.LogLocator(subs=(1, 1.5, 2, 3, 5, 7)))
         axes.yaxis.set_major_formatter(style.matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:g}"))
