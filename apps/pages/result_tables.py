@@ -330,15 +330,6 @@ def sizes():
     return table(["", *(f"{name}: {diameter:g} mm" if diameter == diameters[0] else f"{diameter:g}" for name in words.values() for diameter in diameters)], rows)
 
 
-def second_variable():
-    """rms of |s|/p that ln I and further variables leave over the blocks of the maps."""
-    found = read("memory/amount-over-place-6rpm.json")["beside_ln_I"]
-    bed, flow = found["bed"], found["flow"]
-    left = {tuple(entry["variables"]): entry["rms"] for entry in flow["sets"]}
-    rows = [[", ".join(entry["variables"]) or "nothing", f"{entry['rms']:.4f}", f"{left[tuple(entry['variables'])]:.4f}"] for entry in bed["sets"]]
-    return table(["beside ln I", f"bed, {bed['blocks']} blocks", f"flow, {flow['blocks']} blocks"], rows)
-
-
 TABLES = {
     "headline": headline,
     "targets": targets,
@@ -350,7 +341,6 @@ TABLES = {
     "limits": limits,
     "scores": scores,
     "sizes": sizes,
-    "second variable": second_variable,
 }
 PLACE = re.compile(r"(<!-- table (?P<name>[^>]*) -->\n)(?P<text>.*?)(<!-- end of table -->)", re.DOTALL)
 

@@ -1,6 +1,6 @@
 """Drums of several sizes at one Froude number: what is measured on each, its powers of D/d, and what the continuum makes of the same drums.
 
-usage: drum_sizes.py RECORD.json --law LAW.toml --runs RUN... [--flows LAW=STUDY...]
+usage: drum_sizes.py RECORD.json --law LAW.toml --runs RUN... [--flows LAW=STUDY...] [--speeds RUN...]
        drum_sizes.py RECORD.json --picture PICTURE.png
 Each RUN is measured with maps; LAW is a table mu(I), which |s|/p of the flowing layer at x = 0 is set beside; each STUDY is what `drumlin compare --study RUN... FLOW -o STUDY` left of one flow. phi counts from below the axis,
 positive downslope, as in bed_edges.py.
@@ -128,6 +128,7 @@ def main():
     parser.add_argument("--law", type=pathlib.Path)
     parser.add_argument("--runs", type=pathlib.Path, nargs="+")
     parser.add_argument("--flows", nargs="+", default=[])
+    parser.add_argument("--speeds", type=pathlib.Path, nargs="+", default=[])
     parser.add_argument("--picture", type=pathlib.Path)
     options = parser.parse_args()
     if options.picture:
@@ -137,7 +138,7 @@ def main():
     runs = sorted((run_of(run, law) for run in options.runs), key=lambda run: (run["filling"] != "half", -run["friction"], run["D"], run["seed"]))
     diameters = {run["run"]: run["diameter_mm"] for run in runs}
     flows = [flow_of(law, pathlib.Path(study), diameters) for law, study in (entry.split("=", 1) for entry in options.flows)]
-    record = {"format": "drumlin-sizes-1", "runs": runs, "powers": powers_of(runs), "continuum": flows}
+    record = {"format": "drumlin-sizes-1", "runs": runs, "powers": powers_of(runs), "continuum": flows, "other_speeds": {run.name: layer_of(run) for run in options.speeds}}
     text = json.dumps(json.loads(json.dumps(rounded(record)), parse_constant=lambda _: None), indent=1)
     whole_file.write_text(options.record, text + "\n")
 
