@@ -51,8 +51,9 @@ double added_amount(const StressPath& path, const MemoryLaw& law);
 /// slope of creep, for each c_nu = 2, 3, 4, 6, 8, c_psi = 8, 12, 16, 24, 32 above it and ratio of creep =
 /// 0.02, 0.035, 0.05, 0.07, 0.1, of which the best are taken; then the table once more, robustly, over what
 /// is left. `axes`: the law of the axes, `alone`: its mu(I) without memory, whose knots are kept but for
-/// those inside where creep counts: one speed cannot tell I from |D|/|W|. Nothing of `held_out` enters but
-/// the predictions. Throws InputError where the paths do not determine it.
+/// those inside where creep counts (one speed cannot tell I from |D|/|W|) and those in the flow, which are
+/// octaves down from the largest I. `own_weight`: that of the paths' I. Nothing of `held_out` enters but the
+/// predictions. Throws InputError where the paths do not determine it.
 AmountFit fit_amount(std::span<const PathsOfRun> runs, std::span<const PathsOfRun> held_out, MemoryLaw axes,
                      const CalibratedLaw& alone, double own_weight = 0);
 
