@@ -214,9 +214,11 @@ class Continuation {
 
   bool move_surface(int mesh, const FlowSolverOptions& whole, const FlowSolverOptions& loose) {
     report_.failure.clear();
-    // On a coarser mesh memory is but a start for the next.
-    const bool loosely = problem_.memory && !is_last(mesh);
-    const FlowSolverOptions& here = loosely ? loose : whole;
+    FlowSolverOptions here = whole;
+    if (problem_.memory && !is_last(mesh)) {  // memory is but a start for the next, and a part of its error
+      here = loose;
+      here.picard_tolerance = options_.coarse_picard_tolerance;
+    }
     const fem::SurfaceSolver solver{
         .newton =
             [&] {
@@ -231,7 +233,7 @@ class Continuation {
               return run(again, last_phase("surface", problem_, how), *level_) &&
                      (!fem::holds_fields(problem_) || solve_held_fields(again, how, *level_, report_));
             },
-        .first = loosely ? fem::Settling::whole : fem::Settling::loose,
+        .first = fem::Settling::loose,
         .stepped = observer_.surface_step,
         .tolerance = is_last(mesh) ? 0 : options_.coarse_surface_tolerance};
     // A coarser mesh whose ends are resolved too badly to converge is still a start for the next.

@@ -23,7 +23,7 @@ struct FlowSolverOptions {
   double careful_shear_rate = 1e-3;
   double phase_tolerance = 0.3;    ///< on the residual, in all phases but the last of a mesh
   double coarse_tolerance = 1e-4;  ///< on the residual in the last phase of all meshes but the last one
-  double coarse_surface_tolerance = 0.05;  ///< d, of a surface that moves, on all meshes but the last one
+  double coarse_surface_tolerance = 0.01;  ///< d, of a surface that moves, on all meshes but the last one
   double tolerance = 1e-8;                 ///< on the residual in the last phase of the last mesh
   double linear_tolerance = 1e-6;          ///< on the true relative residual of every linear solve
   int max_iterations = 40;                 ///< per phase
@@ -32,8 +32,8 @@ struct FlowSolverOptions {
   /// hardly shears the axes of its strain rate are noise: the drum at 6 rpm on cells of 2 d came to rest at
   /// 6e-4.
   double picard_tolerance = 1e-3;
-  /// The same while the surface of a flow that remembers still moves, and on all meshes but the last one.
-  double loose_picard_tolerance = 3e-2;
+  double coarse_picard_tolerance = 3e-3;  ///< the same of memory below a moving surface on coarser meshes
+  double loose_picard_tolerance = 3e-2;   ///< the same while the surface still moves
   double loose_memory_tolerance = 1e-6;  ///< on the residual, likewise
   double loose_tolerance = 1e-4;  ///< on the residual of a flow without memory, before its surface moves
   /// Share of picard_tolerance to which memory is settled where no step of the surface lessens what presses.
