@@ -34,7 +34,7 @@ struct FlowSolverOptions {
   double picard_tolerance = 1e-3;
   double coarse_picard_tolerance = 3e-3;  ///< the same of memory below a moving surface on coarser meshes
   double loose_picard_tolerance = 3e-2;   ///< the same while the surface still moves
-  double loose_memory_tolerance = 1e-6;  ///< on the residual, likewise
+  double loose_memory_tolerance = 1e-6;   ///< on the residual, likewise
   double loose_tolerance = 1e-4;  ///< on the residual of a flow without memory, before its surface moves
   /// Share of picard_tolerance to which memory is settled where no step of the surface lessens what presses.
   double fine_picard_share = 0.2;

@@ -3,9 +3,7 @@
 usage: amount_over_place.py PICTURE --runs RUN... [--record FILE.json]
 Each RUN has measured/maps.h5 with displacement fields. |s|/p less the straight line in ln I through all nodes of all runs with I below
 1e-3, means over blocks of 10 d x 4 d, at least 3 d below the surface and 4 d from the wall. What differs from place to place and is the
-same in every run is no noise: no law |s|/p = f(I) has it. Then the same with a second and a third variable beside ln I, by least squares over
-means of all runs, in the bed (I below 1e-3) and in the flow (I from 1e-3 to 0.1): dilatancy psi (div v over the shear rate, from displacements), the
-amount |F| of the deviator of the fabric, the volume fraction, the cosine of the angle between the axes of stress and strain rate, and p.
+same in every run is no noise: no law |s|/p = f(I) has it.
 """
 
 import argparse
@@ -24,48 +22,16 @@ BLOCK = (10, 4)  # d
 LEAST_NODES = 10
 
 
-ZONES = {"bed": (LEAST_I, BED_I), "flow": (BED_I, 0.1)}
-VARIABLES = {
-    "psi": lambda f: f["displacement_dilation"] / f["displacement_strain_rate"],
-    "abs(F)": lambda f: numpy.hypot((f["fabric_xx"] - f["fabric_zz"]) / 2, f["fabric_xz"]),
-    "nu": lambda f: f["nu"],
-    "cosine": lambda f: numpy.cos(numpy.radians(2 * f["displacement_axis_angle_deg"])),
-    "ln p": lambda f: numpy.log(f["p"]),
-}
-SETS = [[], ["psi"], ["abs(F)"], ["nu"], ["cosine"], ["ln p"], ["psi", "abs(F)"], ["psi", "cosine"], ["cosine", "abs(F)"], ["psi", "abs(F)", "nu"]]
-
-
-def nodes_of(run, zone, variables=()):
-    """x, z and columns of |s|/p, ln I and variables, at the nodes of a zone where all are known."""
+def bed_of(run):
+    """x, z, |s|/p and ln I at the nodes of the bed where both are known."""
     header, x, z, f, _ = read_maps(run / "measured" / "maps.h5")
     x, z = numpy.meshgrid(x, z)
     inertial = f["displacement_I"]
     with numpy.errstate(invalid="ignore", divide="ignore"):
-        columns = [f["mu"], numpy.log(inertial), *(read(f) for read in variables)]
+        columns = [f["mu"], numpy.log(inertial)]
         here = numpy.hypot(x, z - float(header["axis_depth"])) < float(header["drum_radius"]) - 4
-        here &= (z < -3) & (f["nu"] >= 0.6) & (inertial > zone[0]) & (inertial < zone[1]) & numpy.isfinite(sum(columns))
+        here &= (z < -3) & (f["nu"] >= 0.6) & (inertial > LEAST_I) & (inertial < BED_I) & numpy.isfinite(sum(columns))
     return x[here], z[here], [column[here] for column in columns]
-
-
-def block_means(run, zone):
-    """Means over blocks of |s|/p, ln I and every variable, by place."""
-    x, z, columns = nodes_of(run, zone, VARIABLES.values())
-    means = [blocks_of(x, z, column) for column in columns]
-    return {place: [of[place] for of in means] for place in means[0]}
-
-
-def beside_inertial_number(runs, zone):
-    """[names, rms that is left, coefficients of 1, ln I and the names] for each set of variables, and the number of blocks."""
-    tables = [block_means(run, zone) for run in runs]
-    places = sorted(set.intersection(*(set(table) for table in tables)))
-    values = numpy.mean([[table[place] for place in places] for table in tables], axis=0).T
-    found = []
-    for names in SETS:
-        columns = [numpy.ones(len(places)), values[1], *(values[2 + list(VARIABLES).index(name)] for name in names)]
-        coefficients = numpy.linalg.lstsq(numpy.array(columns).T, values[0], rcond=None)[0]
-        left = values[0] - coefficients @ columns
-        found.append([names, float(numpy.sqrt(numpy.mean(left**2))), [float(c) for c in coefficients]])
-    return found, len(places)
 
 
 def blocks_of(x, z, left):
@@ -84,7 +50,7 @@ def main():
     options = parser.parse_args()
     if len(options.runs) < 2:
         parser.error("one run does not tell a pattern from noise: two runs at least")
-    beds = [nodes_of(run, ZONES["bed"]) for run in options.runs]
+    beds = [bed_of(run) for run in options.runs]
     amounts, ln_I = numpy.concatenate([columns for _, _, columns in beds], axis=1)
     slope, level = numpy.polyfit(ln_I, amounts, 1)
     blocks = [blocks_of(x, z, amount - level - slope * logarithm) for x, z, (amount, logarithm) in beds]
@@ -98,9 +64,6 @@ def main():
               "blocks": len(places), "rms": rms, "rms_between_runs": of_seeds, "correlations": [float(c) for c in correlations],
               "decades_of_shear_rate": rms / decades, "decades_between_runs": of_seeds / decades,
               "places": [[BLOCK[0] * i, BLOCK[1] * k, *map(float, left[:, n])] for n, (i, k) in enumerate(places)]}
-    beside = {name: beside_inertial_number(options.runs, zone) for name, zone in ZONES.items()}
-    record["beside_ln_I"] = {name: {"blocks": count, "sets": [{"variables": names, "rms": rms_left, "coefficients": coefficients}
-                                                              for names, rms_left, coefficients in found]} for name, (found, count) in beside.items()}
     if options.record:
         whole_file.write_text(options.record, json.dumps(record, indent=1) + "\n")
 
@@ -121,9 +84,6 @@ def main():
     style.save(figure, options.picture, False)
     print(f"|s|/p = {level:.3f} + {slope:.4f} ln I; left: rms {rms:.4f}, between runs {of_seeds:.4f}, correlations "
           + ", ".join(f"{c:.2f}" for c in correlations))
-    print("| beside ln I | " + " | ".join(f"rms left, {name} ({count} blocks)" for name, (_, count) in beside.items()) + " |\n|---|---|---|")
-    for rows in zip(*(found for found, _ in beside.values())):
-        print(f"| {', '.join(rows[0][0]) or 'nothing'} | " + " | ".join(f"{row[1]:.4f}" for row in rows) + " |")
 
 
 if __name__ == "__main__":
