@@ -217,7 +217,7 @@ class Continuation {
     FlowSolverOptions here = whole;
     if (problem_.memory && !is_last(mesh)) {  // memory is but a start for the next, and a part of its error
       here = loose;
-      here.picard_tolerance = options_.coarse_picard_tolerance;
+      here.picard_tolerance = std::max(options_.picard_tolerance, options_.coarse_picard_tolerance);
     }
     const fem::SurfaceSolver solver{
         .newton =

@@ -32,8 +32,8 @@ struct FlowSolverOptions {
   /// hardly shears the axes of its strain rate are noise: the drum at 6 rpm on cells of 2 d came to rest at
   /// 6e-4.
   double picard_tolerance = 1e-3;
-  double coarse_picard_tolerance = 3e-3;  ///< the same of memory below a moving surface on coarser meshes
-  double loose_picard_tolerance = 3e-2;   ///< the same while the surface still moves
+  double coarse_picard_tolerance = 3e-3;  ///< of memory below a moving surface, on coarser meshes
+  double loose_picard_tolerance = 3e-2;   ///< while a surface still moves
   double loose_memory_tolerance = 1e-6;   ///< on the residual, likewise
   double loose_tolerance = 1e-4;  ///< on the residual of a flow without memory, before its surface moves
   /// Share of picard_tolerance to which memory is settled where no step of the surface lessens what presses.

@@ -155,7 +155,7 @@ void take_over(const FlowState& kept, SolvedLevel& level) {
   const double factor = sums.square > 0 && sums.product > 0 ? sums.product / sums.square : 1;
   for (std::size_t k = 0; k < d.is_velocity.size(); ++k)
     if (d.is_velocity[k]) solution.local_element(k) *= factor;
-  if (d.surface) scale_surface(level, factor * factor);
+  if (d.surface && level.problem.inertia) scale_surface(level, factor * factor);
   d.constraints.distribute(solution);
   solution.update_ghost_values();
   if (std::holds_alternative<FixedSlope>(level.problem.slope)) level.state.theta = theta;

@@ -132,7 +132,8 @@ std::vector<double> knots_beside(std::span<const PathsOfRun> runs, std::vector<d
   std::erase_if(knots,
                 [&](double I) { return I > first && (I < begins || I > flow_I / 1.5 || I > last / 1.5); });
   const auto octaves = static_cast<int>(std::max(0.0, std::floor(std::log2(last / flow_I))));
-  for (int octave = -octaves; octave <= 0; ++octave) knots.push_back(std::ldexp(last, octave));
+  for (int octave = -octaves; octave <= 0; ++octave)
+    if (std::ldexp(last, octave) > knots.back()) knots.push_back(std::ldexp(last, octave));
   return knots;
 }
 

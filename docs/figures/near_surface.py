@@ -37,8 +37,8 @@ def samples_of(run):
     ratio = np.hypot(value["sigma_xz"], (value["sigma_xx"] - value["sigma_zz"]) / 2) / p
     depth = top_of(grids, 0.7)[None, :] - z
     with np.errstate(invalid="ignore"):
-        taken = (2 * value["strain_rate"] / np.sqrt(p) > 1e-2) & (depth > LAYERS[0]) & (abs(x) < 0.4 * float(header["drum_radius"])) & np.isfinite(ratio)
-    return {"rate": 2 * value["strain_rate"][taken], "p": p[taken], "ratio": ratio[taken], "depth": depth[taken]}
+        taken = (value["strain_rate"] / np.sqrt(p) > 1e-2) & (depth > LAYERS[0]) & (abs(x) < 0.4 * float(header["drum_radius"])) & np.isfinite(ratio)
+    return {"rate": value["strain_rate"][taken], "p": p[taken], "ratio": ratio[taken], "depth": depth[taken]}
 
 
 def basis(samples, w):

@@ -142,6 +142,16 @@ TEST_P(AmountFitOf, KnownCoefficientsComeBackAndPredictAnotherSpeed) {
 }
 INSTANTIATE_TEST_SUITE_P(OwnWeight, AmountFitOf, ::testing::Values(0.0, 3.0));
 
+TEST(AmountMemory, OwnWeightEntersIAndTheEndOfTheTable) {
+  MemoryLaw weighed = law;
+  weighed.amount->own_weight = 4;
+  EXPECT_DOUBLE_EQ(inertial_number(law, 0.3, 5), 0.6 / std::sqrt(5));
+  EXPECT_DOUBLE_EQ(inertial_number(weighed, 0.3, 5), 0.2);
+  const double end = law.mu.I.back();
+  EXPECT_NEAR(memory_friction(law).friction(end).mu, memory_friction(weighed).friction(end).mu, 1e-15);
+  EXPECT_GT(memory_friction(weighed).friction(4 * end).mu, memory_friction(law).friction(4 * end).mu + 1e-3);
+}
+
 TEST(StressPaths, OwnWeightLessensIWhereThePressureIsSmall) {
   const FieldMap map = remembering_drum({});
   const std::vector<StressPath> plain = stress_paths(PathFields(map, {.smoothing = 0.3}));

@@ -175,6 +175,10 @@ TEST(MemoryOfTheAmount, IsMuOfIInSteadySimpleShear) {
   EXPECT_NEAR(b.velocity.x / a.velocity.x, 1, 1e-3);
   EXPECT_NEAR(b.sigma_xx, a.sigma_xx, 1e-4);
   EXPECT_NEAR(b.memory_rho, a.memory_rho, 1e-4);
+  // The same I is a larger shear rate where the grains' own weight counts.
+  swells.memory->law.amount->own_weight = 3;
+  const PointState weighed = state_at(converged(swells, options), {0, -2});
+  EXPECT_NEAR(weighed.dvx_dz / b.dvx_dz, std::sqrt(1 + 3 / b.pressure), 2e-3);
 }
 
 TEST(MemoryOfTheAmount, WithoutCoefficientsIsNone) {
