@@ -42,10 +42,7 @@ def layer_of(run):
     near = (abs(grids["x"]) < float(header["drum_radius"]) / 2)[None, :]
     with numpy.errstate(invalid="ignore"):
         taken = near & (value["I"] > 0.02) & (value["I"] < 0.03) & (value["nu"] > 0.7)
-    stress = (value["sigma_zz"] - value["sigma_xx"]) / 2 + 0.5j * (value["sigma_xz"] + value["sigma_zx"])
-    rate = value["D_xx"] / 2 - value["D_zz"] / 2 + 1j * value["D_xz"]
-    lag = numpy.degrees(numpy.angle(stress[taken] * rate[taken].conj())) / 2
-    ratio = abs(stress[taken]) * 2 / (value["sigma_xx"] + value["sigma_zz"])[taken]
+    lag, ratio = value["axis_angle_deg"][taken], value["mu"][taken]
     return {"lag_deg": float(numpy.nanmean(lag)), "stress_ratio": float(numpy.nanmean(ratio)), "nodes": int(numpy.isfinite(ratio).sum())}
 
 

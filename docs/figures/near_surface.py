@@ -32,13 +32,11 @@ def top_of(grids, least):
 def samples_of(run):
     header, grids = read_maps(run / "measured" / "maps.h5")
     x, z = np.meshgrid(grids["x"], grids["z"])
-    value = {name: np.ma.filled(grids[name], np.nan) for name in ("sigma_xx", "sigma_zz", "sigma_xz", "strain_rate")}
-    p = (value["sigma_xx"] + value["sigma_zz"]) / 2
-    ratio = np.hypot(value["sigma_xz"], (value["sigma_xx"] - value["sigma_zz"]) / 2) / p
+    rate, p, ratio, inertial = (np.ma.filled(grids[name], np.nan) for name in ("strain_rate", "p", "mu", "I"))
     depth = top_of(grids, 0.7)[None, :] - z
     with np.errstate(invalid="ignore"):
-        taken = (value["strain_rate"] / np.sqrt(p) > 1e-2) & (depth > LAYERS[0]) & (abs(x) < 0.4 * float(header["drum_radius"])) & np.isfinite(ratio)
-    return {"rate": value["strain_rate"][taken], "p": p[taken], "ratio": ratio[taken], "depth": depth[taken]}
+        taken = (inertial > 1e-2) & (depth > LAYERS[0]) & (abs(x) < 0.4 * float(header["drum_radius"])) & np.isfinite(ratio)
+    return {"rate": rate[taken], "p": p[taken], "ratio": ratio[taken], "depth": depth[taken]}
 
 
 def basis(samples, w):
