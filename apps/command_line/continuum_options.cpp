@@ -35,8 +35,8 @@ void add_calibrate_options(CLI::App& command, CalibrateOptions& options) {
                     "With --memory: what is added to the amount of the stress: creep, dilatancy and lag of "
                     "the axes, as a part of the law")
           ->needs(memory);
-  add_optional_number(command, "--own-weight", options.own_weight, "rho0 g d", at_least(0, 100),
-                      "With --amount: w in the law's I = 2|D|/sqrt(p + w)");
+  add_number(command, "--own-weight", options.own_weight, "rho0 g d", at_least(0, 100),
+             "With --amount: w in the law's I = 2|D|/sqrt(p + w)");
   command.get_option("--own-weight")->needs(amount);
   command.add_flag("--nonlocal", options.nonlocal,
                    "Threshold and length of nonlocal fluidity as a part of the law, and whether the runs ask "

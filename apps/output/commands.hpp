@@ -129,7 +129,7 @@ struct CalibrateOptions {
   ExistingOutput existing = ExistingOutput::refuse;
   bool nonlocal = false;
   bool amount = false;
-  std::optional<double> own_weight;  ///< rho0 g d; absent: 0
+  double own_weight = 0;  ///< rho0 g d
 };
 int calibrate(const CalibrateOptions&);
 

@@ -161,7 +161,7 @@ coupling::CalibrationOptions settings_of(const CalibrateOptions& options, coupli
                                         .memory = options.memory,
                                         .draws = options.draws,
                                         .nonlocal = options.nonlocal};
-  if (options.amount) settings.amount_own_weight = options.own_weight.value_or(0);
+  if (options.amount) settings.amount_own_weight = options.own_weight;
   if (options.law != "auto") settings.form = coupling::form_named(options.law);
   return settings;
 }
@@ -209,8 +209,7 @@ std::string asked_for(const CalibrateOptions& options) {
   for (const fs::path& run : options.validate) held_out.push_back(measured_run_sum(run));
   return asked_sum({inputs, held_out, options.from, options.law, options.I_min.value_or(0),
                     options.I_max.value_or(0), options.draws, options.k, options.misalignment, options.memory,
-                    options.nonlocal, options.amount, options.own_weight.value_or(0),
-                    options.accept_unsteady});
+                    options.nonlocal, options.amount, options.own_weight, options.accept_unsteady});
 }
 
 /// A law stands in no folder with a manifest: its record says what was asked for.
