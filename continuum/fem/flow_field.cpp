@@ -203,9 +203,10 @@ FlowIntegrals FlowField::integrals(Vec2 centre, double law_I_max) const {
       const auto x = fe.quadrature_point(q);
       sums.area += fe.JxW(q);
       if (s.margin < 0) sums.ill_posed_area += fe.JxW(q);
-      // I^2 p = 2 D:D, the shear rate squared.
-      if (2 * contraction(D, D) > law_I_max * law_I_max * std::max(0.0, s.normal))
-        sums.beyond_law_area += fe.JxW(q);
+      const double p = std::max(0.0, s.normal);
+      const double I = problem.memory ? inertial_number(problem.memory->law, magnitude(D), p)
+                                      : 2 * magnitude(D) / std::sqrt(p);
+      if (I > law_I_max) sums.beyond_law_area += fe.JxW(q);
       const double work = contraction(s.stress, D) * fe.JxW(q);
       sums.dissipation += work;
       if (const double rate = magnitude(D); rate > 0)

@@ -55,10 +55,7 @@ void add_memory(const FlowProblem& problem, const Discretisation& d, const State
       remembered(at_quadrature(*A, d, 0), at_quadrature(*A, d, 1), at_quadrature(*rho, d),
                  added ? at_quadrature(*added, d) : std::vector<double>());
   held.at_quadrature.memory_weight = m;
-  held.at_quadrature.followed_slope = law.amount ? followed_slope(*law.amount) : 0;
-  held.at_quadrature.own_weight = law.amount ? law.amount->own_weight : 0;
   if (law.amount && law.amount->creep) {
-    held.at_quadrature.creep = *law.amount->creep;
     const double frame = problem.frame ? problem.frame->rotation : 0;
     for_each_point(d, state.solution, [&](const PointValues& at, std::size_t) {
       held.at_quadrature.spin.push_back(spin_of(at.motion) + frame);
@@ -145,9 +142,6 @@ HeldValues held_at(const HeldFields& held, const Discretisation& d, const MeshCe
                    values_at(*held.rho, cell, unit_points),
                    held.added ? values_at(*held.added, cell, unit_points) : std::vector<double>());
     values.memory_weight = held.at_quadrature.memory_weight;
-    values.followed_slope = held.at_quadrature.followed_slope;
-    values.creep = held.at_quadrature.creep;
-    values.own_weight = held.at_quadrature.own_weight;
   }
   return values;
 }

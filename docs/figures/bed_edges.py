@@ -27,7 +27,7 @@ BLIND = ("3", "12")  # rpm
 def fields_of(run):
     """Header and fields over the plane, velocity relative to the drum by displacements where there are any; the axis is the origin."""
     header, x, z, f, _ = read_maps(run / "measured" / "maps.h5")
-    for name in ("v_x", "v_z", "I", "strain_rate", "d_v_x_dz"):
+    for name in ("v_x", "v_z", "I", "d_v_x_dz"):
         f[name] = numpy.where(numpy.isfinite(f["displacement_" + name]), f["displacement_" + name], f[name])
     axis, radius, rotation = (float(header[name]) for name in ("axis_depth", "drum_radius", "rotation"))
     f["x"], f["z"] = numpy.meshgrid(x, z - axis)
@@ -44,7 +44,7 @@ def over_angle(f, values, near, far, radius):
 
 
 def wall_of(f, radius, rotation):
-    """Over the angles: share of the wall's speed that the first layer and the material behind it lack, traction ratio, nu, shear strain since 70 deg."""
+    """Over the angles: share of the wall's speed that the first layer and the material behind it lack, traction ratio, nu."""
     lag = -(f["v_x"] * f["z"] - f["v_z"] * f["x"]) / f["r"] / (rotation * radius)
     n_x, n_z = f["x"] / f["r"], f["z"] / f["r"]
     shear = (f["sigma_xz"] + f["sigma_zx"]) / 2
@@ -52,10 +52,7 @@ def wall_of(f, radius, rotation):
     along = n_x * n_z * (f["sigma_xx"] - f["sigma_zz"]) + (n_x**2 - n_z**2) * shear
     ring = {name: over_angle(f, values, near, far, radius) for name, values, near, far in (
         ("slip", lag, 0, 1), ("lag_2_d", lag, 2, 3), ("lag_4_d", lag, 4, 5), ("normal", normal, 2, 4), ("along", along, 2, 4), ("nu", f["nu"], 0.6, 1.6),
-        ("nu_6_d", f["nu"], 5.5, 6.5), ("rate", 2 * f["strain_rate"] / rotation, 1, 3))}
-    steps = numpy.gradient(numpy.radians(ANGLES))
-    rate = numpy.where(numpy.array(ANGLES) <= CORNER[0], numpy.nan_to_num(ring.pop("rate")), 0)
-    ring["strain"] = [float(s) for s in numpy.cumsum((steps * rate)[::-1])[::-1]]
+        ("nu_6_d", f["nu"], 5.5, 6.5))}
     # A loose grain on the wall lags more than the material behind it.
     ring["slip"] = [float(numpy.fmin(first, behind)) if abs(angle) < CORNER[0] else first
                     for angle, first, behind in zip(ANGLES, ring["slip"], ring["lag_2_d"])]

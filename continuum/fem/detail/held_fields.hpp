@@ -17,9 +17,6 @@ struct HeldValues {
   std::vector<double> fluidity;    ///< g_loc/g, with nonlocal fluidity
   std::vector<Remembered> memory;  ///< A and rho, with memory of the axes
   double memory_weight = 0;        ///< m, less while it rises
-  double followed_slope = 0;       ///< of FollowedLaw; 0: the amount is mu(I)
-  Creep creep = {};                ///< of FollowedLaw
-  double own_weight = 0;           ///< likewise
   std::vector<double> spin;        ///< W in the laboratory, with creep; empty: that of the flow, seen there
 };
 

@@ -56,12 +56,12 @@ struct TurnedPointLaw {
 
 /// In place of the problem's law.
 struct MemoryPointLaw {
-  const TabulatedLaw& law;
+  const AxesMemory& effect;
   const HeldValues& held;
   MemoryResponse operator()(const Regularisation& r, const PointValues& at, const PlaneTensor& dual,
                             std::size_t point) const {
-    if (held.fluidity.empty()) return with_amount(law, r, at, dual, point);
-    return with_amount(NonlocalLaw<TabulatedLaw>{law, held.fluidity[point]}, r, at, dual, point);
+    if (held.fluidity.empty()) return with_amount(effect.friction, r, at, dual, point);
+    return with_amount(NonlocalLaw<TabulatedLaw>{effect.friction, held.fluidity[point]}, r, at, dual, point);
   }
 
  private:
@@ -69,11 +69,13 @@ struct MemoryPointLaw {
   MemoryResponse with_amount(const Friction& mu, const Regularisation& r, const PointValues& at,
                              const PlaneTensor& dual, std::size_t point) const {
     const Remembered& memory = held.memory[point];
-    const double m = held.memory_weight, slope = held.followed_slope;
-    if (slope == 0) return memory_response(mu, m, memory, r, at.D, at.p, dual);
-    const double W = held.spin.empty() ? spin_of(at.motion) : held.spin[point];
-    return memory_response(FollowedLaw<Friction>{mu, slope, memory.added, held.creep, W, held.own_weight}, m,
-                           memory, r, at.D, at.p, dual);
+    const double m = held.memory_weight;
+    if (!effect.law.amount) return memory_response(mu, m, memory, r, at.D, at.p, dual);
+    const AmountMemory& amount = *effect.law.amount;
+    const FollowedLaw<Friction> followed{
+        mu, followed_slope(amount), memory.added, amount.creep.value_or(Creep{}),
+        held.spin.empty() ? spin_of(at.motion) : held.spin[point], amount.own_weight};
+    return memory_response(followed, m, memory, r, at.D, at.p, dual);
   }
 };
 
@@ -134,7 +136,7 @@ template <class Visit>
 void with_point_law(const FlowProblem& problem, const StressLaw& law, const HeldValues& held, Visit&& visit) {
   if (problem.threshold_fluidity) return with_fluidity_law(problem, law, held, visit);
   if (!held.memory.empty() && !std::holds_alternative<NewtonianLaw>(law))
-    return visit(MemoryPointLaw{problem.memory->friction, held});
+    return visit(MemoryPointLaw{*problem.memory, held});
   std::visit(
       [&](const auto& chosen) {
         using Law = std::decay_t<decltype(chosen)>;
