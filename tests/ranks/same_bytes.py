@@ -149,6 +149,14 @@ def until_checkpoint(job, run):
         time.sleep(0.005)
 
 
+def newest_checkpoint(run):
+    """When checkpoint.h5 was written; None while there is the previous one alone, the next not yet in place."""
+    try:
+        return (run / "checkpoint.h5").stat().st_mtime_ns
+    except FileNotFoundError:
+        return None
+
+
 def going_on_elsewhere(run_on, drumlin, folder, scene, right):
     """A rank is killed once there is a checkpoint of four: the job ends with a message, one process goes on and is told to stop,
     three ranks finish."""
@@ -159,8 +167,8 @@ def going_on_elsewhere(run_on, drumlin, folder, scene, right):
         _, said = job.communicate(timeout=300)
     require(job.returncode != 0 and "signal 9" in said, f"a killed rank: exit code {job.returncode}, said\n{said}")
     with subprocess.Popen([drumlin, "run", scene, "-o", run, "--resume"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as job:
-        before = (run / "checkpoint.h5").stat().st_mtime_ns
-        while job.poll() is None and (run / "checkpoint.h5").stat().st_mtime_ns == before:
+        before = newest_checkpoint(run)
+        while job.poll() is None and newest_checkpoint(run) == before:
             time.sleep(0.005)
         if job.poll() is None:
             job.send_signal(signal.SIGTERM)
