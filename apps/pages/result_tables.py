@@ -79,6 +79,8 @@ def headline():
         return [name, number(stated), interval(both[key]["particles"]), continuum]
 
     share = 0.4 * said[("shear_rate", 6)] * paper["H"] ** 2 / paper["Q"]
+    sizes, particles, flow = drums()
+    others, predicted = [size for size in sizes if size != 450], flow("axes and stress ratio of 450 mm")
     return table(["", "paper", "particles", "continuum"], [
         row("slope theta (deg)", "theta_deg", paper["theta_deg"]),
         row("flow rate Q", "Q", paper["Q"]),
@@ -89,6 +91,7 @@ def headline():
         row("volume fraction of the bulk", "nu_bulk", said[("nu_bulk", None)], "taken over"),
         ["a, b of mu = a + b ln I", f"{friction['a']:g}, {friction['b']:g}", interval(both["mu_a"]["particles"]) + ", " + interval(both["mu_b"]["particles"]), "a table from the tensors"],
         row("linear share of Q, 0.4 shear rate H^2/Q", "linear_layer_share", share),
+        [f"theta (deg) at {', '.join(f'{size:g}' for size in others)} mm, with a law of 450 mm", "", *(", ".join(of("theta_deg", size) for size in others) for of in (particles, predicted))],
         ["cost (processor seconds)", "", f"{record['particles']['cpu_seconds']:.0f}", f"{record['continuum']['cpu_seconds']:.0f}"],
     ]) + "\n\n" + five_seeds()
 
@@ -308,22 +311,33 @@ def scores():
     return table(["", *laws], rows)
 
 
-def sizes():
-    """Half filled drums with friction 0.4 of four sizes, and the continuum of the same drums, read at the same places."""
+def drums():
+    """Diameters of the half filled drums with friction 0.4, and the words of a quantity at one: of the particles, and of the flow with a law."""
     record = read("sizes/sizes.json")
     runs = [run for run in record["runs"] if run["filling"] == "half" and run["friction"] == 0.4]
-    diameters, words = sorted({run["diameter_mm"] for run in runs}), {"theta_deg": "theta (deg)", "H": "H (d)", "shear_rate": "shear rate", "lag_deg": "lag (deg)"}
-
-    def row(name, value):
-        return [name, *(value(key, diameter) for key in words for diameter in diameters)]
 
     def particles(key, diameter):
         values = [run["layer"][key] if key in run["layer"] else run[key]["value"] for run in runs if run["diameter_mm"] == diameter]
         return number(sum(values) / len(values))
 
     def flow(law):
-        found = {(key, one["diameter_mm"]): one["scalars"][key]["continuum"] for one in record["continuum"] if one["law"] == law for key in words if key in one["scalars"]}
-        return lambda key, diameter: number(found[key, diameter]["value"] if isinstance(found.get((key, diameter)), dict) else found.get((key, diameter)))
+        found = {one["diameter_mm"]: one["scalars"] for one in record["continuum"] if one["law"] == law}
+
+        def word(key, diameter):
+            value = found.get(diameter, {}).get(key, {}).get("continuum")
+            return number(value["value"] if isinstance(value, dict) else value)
+        return word
+
+    return sorted({run["diameter_mm"] for run in runs}), particles, flow
+
+
+def sizes():
+    """Half filled drums with friction 0.4 of four sizes, and the continuum of the same drums, read at the same places."""
+    record, (diameters, particles, flow) = read("sizes/sizes.json"), drums()
+    words = {"theta_deg": "theta (deg)", "H": "H (d)", "shear_rate": "shear rate", "lag_deg": "lag (deg)"}
+
+    def row(name, value):
+        return [name, *(value(key, diameter) for key in words for diameter in diameters)]
 
     rows = [row("particles", particles), row("power of D", lambda key, diameter: interval(record["powers"]["0.4"][key]) if diameter == diameters[0] and key != "lag_deg" else "")]
     rows += [row(law, flow(law)) for law in dict.fromkeys(one["law"] for one in record["continuum"])]

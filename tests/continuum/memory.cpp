@@ -177,8 +177,13 @@ TEST(MemoryOfTheAmount, IsMuOfIInSteadySimpleShear) {
   EXPECT_NEAR(b.memory_rho, a.memory_rho, 1e-4);
   // The same I is a larger shear rate where the grains' own weight counts.
   swells.memory->law.amount->own_weight = 3;
-  const PointState weighed = state_at(converged(swells, options), {0, -2});
+  const FlowField field = converged(swells, options);
+  const PointState weighed = state_at(field, {0, -2});
   EXPECT_NEAR(weighed.dvx_dz / b.dvx_dz, std::sqrt(1 + 3 / b.pressure), 2e-3);
+  const double I = weighed.dvx_dz / std::sqrt(weighed.pressure + 3);
+  EXPECT_EQ(field.integrals({}, 1.01 * I).beyond_law_area, 0);
+  const FlowIntegrals beyond = field.integrals({}, 0.99 * I);
+  EXPECT_DOUBLE_EQ(beyond.beyond_law_area, beyond.area);
 }
 
 TEST(MemoryOfTheAmount, WithoutCoefficientsIsNone) {
