@@ -171,9 +171,6 @@ def depths():
     def shifted(level):
         return lambda run: share(0.3)(run) + crossing(run, "nu", level)
 
-    def top(depth):
-        return lambda run: line_depth(run, run["z"] > -depth)
-
     def in_laboratory(run):
         return share(0.3)(run | {"v_x": run["v_x"] + run["rotation"] * (run["z"] + run["axis_depth"])})
 
@@ -184,10 +181,7 @@ def depths():
     stated = [paper[rpm]["H"] for rpm in SPEEDS]
     found = {
         "line where v_x > 0.3 v_x(0): the project's": of(share(0.3)),
-        "the same, v_x > 0.1 v_x(0)": of(share(0.1)),
-        "the same, v_x > 0.7 v_x(0)": of(share(0.7)),
-        "line through the top 5 d": of(top(5)),
-        "line through the top 8 d": of(top(8)),
+        "line through the top 5 d": of(lambda run: line_depth(run, run["z"] > -5)),
         "steepest tangent": of(steepest),
         "surface where nu = 0.4": of(shifted(0.4)),
         "surface where nu = 0.78": of(shifted(0.78)),
@@ -279,18 +273,9 @@ def by_row(rows):
     return {(row["quantity"], row["where"], row["zone"]): row for row in rows if row["registered_by"] == "axis"}
 
 
-def scored():
-    """{law: rows} of continua at 6 rpm as `drumlin score` judges them."""
-    return {name: by_row(entry["score"]["rows"]) for name, entry in read("memory/scores-6rpm.json")["laws"].items()}
-
-
-def score_cell(row):
-    return judged({"value": row["error"], "met": row["met"]})
-
-
 def limits():
-    """The flow with memory at all speeds, beside two simpler laws at 6 rpm."""
-    found, laws = by_row(read("memory/limits-speeds.json")["limits"]["rows"]), scored()
+    """The flow with memory at all speeds."""
+    found = by_row(read("memory/limits-speeds.json")["limits"]["rows"])
     cells = {key: {round(cell["rotation_rpm"]): cell for cell in found[key]["cells"]} for key in ROWS}
     shown = sorted(next(iter(cells.values())))
     head = [f"{rpm}{' (blind)' if rpm in BLIND else ''}" for rpm in shown]
@@ -299,14 +284,14 @@ def limits():
     for key, name in ROWS.items():
         row = found[key]
         worst = f" in the mean, each {row['must_worst']:g}" if "must_worst" in row else ""
-        rows.append([name, f"{row['must']:g}{worst}; {row['aim']:g}", number(cells[key][6]["floor"], 2), *(score_cell(laws[law][key]) for law in ("mu(I), a table", "axes remember")),
-                     *(judged(cells[key].get(rpm)) for rpm in shown)])
-    return table(["", "must; aim", "noise floor, 6 rpm", "mu(I) alone, 6 rpm", "memory of the axes, 6 rpm", *head], rows)
+        rows.append([name, f"{row['must']:g}{worst}; {row['aim']:g}", number(cells[key][6]["floor"], 2), *(judged(cells[key].get(rpm)) for rpm in shown)])
+    return table(["", "must; aim", "noise floor, 6 rpm", *head], rows)
 
 
 def scores():
-    laws = scored()
-    rows = [[name, *(score_cell(found[key]) for found in laws.values())] for key, name in ROWS.items()]
+    """Continua at 6 rpm as `drumlin score` judges them."""
+    laws = {name: by_row(entry["score"]["rows"]) for name, entry in read("memory/scores-6rpm.json")["laws"].items()}
+    rows = [[name, *(judged({"value": found[key]["error"], "met": found[key]["met"]}) for found in laws.values())] for key, name in ROWS.items()]
     rows.append(["met, of 14", *(str(sum(bool(found[key]["met"]) for key in ROWS)) for found in laws.values())])
     return table(["", *laws], rows)
 

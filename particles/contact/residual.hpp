@@ -158,8 +158,8 @@ ResidualSums residual_sums_of(const Problem& problem, std::span<const double> r,
 }
 
 /// Residual of impulses r (dim * contacts entries); `velocities` receives those that they cause. A problem
-/// without contacts, or with r exact, has residual 0; if every entry of q is zero and r does not solve it,
-/// infinity. The result does not depend on the team of the loops.
+/// without contacts, or with r exact, has residual 0; if every entry of q is zero, or one infinite, and r
+/// does not solve it, infinity. The result does not depend on the team of the loops.
 template <class Problem>
 ContactResidual residual_of(const Problem& problem, std::span<const double> r,
                             Velocities<typename Problem::Delassus>& velocities, TeamLoops& loops) {
@@ -172,7 +172,7 @@ ContactResidual residual_of(const Problem& problem, std::span<const double> r,
   });
   const double scale = std::sqrt(q_squares / static_cast<double>(problem.q.size()));
   const auto relative = [scale](double e) {
-    return e == 0 ? 0 : scale != 0 ? e / scale : std::numeric_limits<double>::infinity();
+    return e == 0 ? 0 : scale != 0 && !std::isinf(scale) ? e / scale : std::numeric_limits<double>::infinity();
   };
   residual.rms = relative(std::sqrt(sums.squares / count));
   residual.max = relative(std::sqrt(sums.largest));

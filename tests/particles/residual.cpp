@@ -128,6 +128,15 @@ TEST(Residual, ExactSolutionsHaveNone) {
   EXPECT_EQ(residual(disc_on_floor(1, 0.3, 0.5), {0, 0}).rms, 0);  // opens
 }
 
+TEST(Residual, IsNotHiddenByAnInfiniteGap) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  CoulombSpinProblem problem = disc_on_floor(-1, 0, 0.5);
+  problem.W.add(0, 1, 0, 1);
+  problem.q = {-1, 0, infinite, 0};
+  problem.mu = {0.5, 0.5};
+  EXPECT_EQ(residual(problem, {0, 0, 0, 0}).rms, infinite);
+}
+
 TEST(Residual, MissingImpulseCountsItsVelocity) {
   // r = 0: e = |P_K(-rho (u_n + mu |u_t|), -rho u_t)| / rho with rho = 1/1.5. For u = (-1, 0): the projection
   // is (rho, 0), so e = 1. rms(q) = 1/sqrt(2).
