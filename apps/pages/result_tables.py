@@ -93,12 +93,12 @@ def headline():
         row("linear share of Q, 0.4 shear rate H^2/Q", "linear_layer_share", share),
         [f"theta (deg) at {', '.join(f'{size:g}' for size in others)} mm, with a law of 450 mm", "", *(", ".join(of("theta_deg", size) for size in others) for of in (particles, predicted))],
         ["cost (processor seconds)", "", f"{record['particles']['cpu_seconds']:.0f}", f"{record['continuum']['cpu_seconds']:.0f}"],
-    ]) + "\n\n" + five_seeds()
+    ]) + "\n\n" + six_seeds()
 
 
-def five_seeds():
+def six_seeds():
     found = {row[0]: row[3] for row in paper_rows() if row[1] == "6"}
-    return (f"Five seeds of five turns at 6 rpm (`data/memory/paper-table.csv`): H {found['H']}, lambda {found['lambda']}, shear rate {found['shear_rate']}, "
+    return (f"Six seeds of five turns at 6 rpm (`data/memory/paper-table.csv`): H {found['H']}, lambda {found['lambda']}, shear rate {found['shear_rate']}, "
             f"theta {found['theta_deg']} deg.")
 
 
@@ -325,7 +325,8 @@ def sizes():
         return [name, *(value(key, diameter) for key in words for diameter in diameters)]
 
     rows = [row("particles", particles), row("power of D", lambda key, diameter: interval(record["powers"]["0.4"][key]) if diameter == diameters[0] and key != "lag_deg" else "")]
-    rows += [row(law, flow(law)) for law in dict.fromkeys(one["law"] for one in record["continuum"])]
+    laws = [one["law"] for one in record["continuum"]]
+    rows += [row(law, flow(law)) for law in dict.fromkeys(laws) if laws.count(law) > 1]
     return table(["", *(f"{name}: {diameter:g} mm" if diameter == diameters[0] else f"{diameter:g}" for name in words.values() for diameter in diameters)], rows)
 
 
