@@ -91,7 +91,7 @@ def headline():
         row("volume fraction of the bulk", "nu_bulk", said[("nu_bulk", None)], "taken over"),
         ["a, b of mu = a + b ln I", f"{friction['a']:g}, {friction['b']:g}", interval(both["mu_a"]["particles"]) + ", " + interval(both["mu_b"]["particles"]), "a table from the tensors"],
         row("linear share of Q, 0.4 shear rate H^2/Q", "linear_layer_share", share),
-        [f"theta (deg) at {', '.join(f'{size:g}' for size in others)} mm, with a law of 450 mm", "", *(", ".join(of("theta_deg", size) for size in others) for of in (particles, predicted))],
+        [f"theta (deg) in drums of {', '.join(f'{size:g}' for size in others)} mm, law of 450 mm (`data/sizes/sizes.json`)", "", *(", ".join(of("theta_deg", size) for size in others) for of in (particles, predicted))],
         ["cost (processor seconds)", "", f"{record['particles']['cpu_seconds']:.0f}", f"{record['continuum']['cpu_seconds']:.0f}"],
     ]) + "\n\n" + six_seeds()
 

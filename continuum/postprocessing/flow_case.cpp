@@ -98,8 +98,7 @@ FlowCase gap_case(const FlowScene& scene, const RheologyFit& law) {
 FlowCase flow_case(const FlowScene& scene, const RheologyFit& law) {
   FlowCase made =
       std::holds_alternative<FlowDrum>(scene.geometry) ? drum_case(scene, law) : gap_case(scene, law);
-  made.law_I_max =
-      made.problem.memory ? made.problem.memory->law.mu.I.back() : largest_measured_I(law.mu);
+  made.law_I_max = made.problem.memory ? made.problem.memory->law.mu.I.back() : largest_measured_I(law.mu);
   return made;
 }
 

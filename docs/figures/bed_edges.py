@@ -21,7 +21,7 @@ LINE_I = 1e-2
 LINE_X = list(range(-44, 45, 4))  # d
 FRICTION = 0.95  # of the wall in the scenes of the drum
 SURFACE_END = 87.7  # deg, of the half full drum
-BLIND = ("3", "12")  # rpm
+BLIND = ("3", "8", "12")  # rpm
 
 
 def fields_of(run):

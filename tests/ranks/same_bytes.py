@@ -168,7 +168,7 @@ def going_on_elsewhere(run_on, drumlin, folder, scene, right):
     require(job.returncode != 0 and "signal 9" in said, f"a killed rank: exit code {job.returncode}, said\n{said}")
     with subprocess.Popen([drumlin, "run", scene, "-o", run, "--resume"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as job:
         before = newest_checkpoint(run)
-        while job.poll() is None and newest_checkpoint(run) == before:
+        while job.poll() is None and newest_checkpoint(run) in (before, None):
             time.sleep(0.005)
         if job.poll() is None:
             job.send_signal(signal.SIGTERM)

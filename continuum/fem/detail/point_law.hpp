@@ -72,9 +72,12 @@ struct MemoryPointLaw {
     const double m = held.memory_weight;
     if (!effect.law.amount) return memory_response(mu, m, memory, r, at.D, at.p, dual);
     const AmountMemory& amount = *effect.law.amount;
-    const FollowedLaw<Friction> followed{
-        mu, followed_slope(amount), memory.added, amount.creep.value_or(Creep{}),
-        held.spin.empty() ? spin_of(at.motion) : held.spin[point], amount.own_weight};
+    const FollowedLaw<Friction> followed{mu,
+                                         followed_slope(amount),
+                                         memory.added,
+                                         amount.creep.value_or(Creep{}),
+                                         held.spin.empty() ? spin_of(at.motion) : held.spin[point],
+                                         amount.own_weight};
     return memory_response(followed, m, memory, r, at.D, at.p, dual);
   }
 };
