@@ -93,12 +93,12 @@ def headline():
         row("linear share of Q, 0.4 shear rate H^2/Q", "linear_layer_share", share),
         [f"theta (deg) in drums of {', '.join(f'{size:g}' for size in others)} mm, law of 450 mm (`data/sizes/sizes.json`)", "", *(", ".join(of("theta_deg", size) for size in others) for of in (particles, predicted))],
         ["cost (processor seconds)", "", f"{record['particles']['cpu_seconds']:.0f}", f"{record['continuum']['cpu_seconds']:.0f}"],
-    ]) + "\n\n" + six_seeds()
+    ]) + "\n\n" + seeds_together()
 
 
-def six_seeds():
+def seeds_together():
     found = {row[0]: row[3] for row in paper_rows() if row[1] == "6"}
-    return (f"Six seeds of five turns at 6 rpm (`data/memory/paper-table.csv`): H {found['H']}, lambda {found['lambda']}, shear rate {found['shear_rate']}, "
+    return (f"{len(list(DATA.glob('bed/6rpm-*')))} seeds of five turns at 6 rpm (`data/memory/paper-table.csv`): H {found['H']}, lambda {found['lambda']}, shear rate {found['shear_rate']}, "
             f"theta {found['theta_deg']} deg.")
 
 

@@ -172,8 +172,8 @@ ContactResidual residual_of(const Problem& problem, std::span<const double> r,
   });
   const double scale = std::sqrt(q_squares / static_cast<double>(problem.q.size()));
   const auto relative = [scale](double e) {
-    const bool has_scale = scale != 0 && !std::isinf(scale);
-    return e == 0 ? 0 : has_scale ? e / scale : e * std::numeric_limits<double>::infinity();
+    if (e == 0) return 0.0;
+    return scale != 0 && !std::isinf(scale) ? e / scale : e * std::numeric_limits<double>::infinity();
   };
   residual.rms = relative(std::sqrt(sums.squares / count));
   residual.max = relative(std::sqrt(sums.largest));

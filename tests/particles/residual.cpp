@@ -135,6 +135,9 @@ TEST(Residual, IsNotHiddenByAnInfiniteGap) {
   problem.q = {-1, 0, infinite, 0};
   problem.mu = {0.5, 0.5};
   EXPECT_EQ(residual(problem, {0, 0, 0, 0}).rms, infinite);
+  EXPECT_EQ(residual(problem, {0, 0, 0, 0}).max, infinite);
+  EXPECT_EQ(residual(problem, {2, 0, 0, 0}).rms, 0);
+  EXPECT_TRUE(std::isnan(residual(problem, {std::nan(""), 0, 0, 0}).rms));  // as callers tell it
 }
 
 TEST(Residual, MissingImpulseCountsItsVelocity) {
