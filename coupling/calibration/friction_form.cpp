@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "coupling/common/enum_names.hpp"
 #include "coupling/common/errors.hpp"
 
 namespace drumlin::coupling {
