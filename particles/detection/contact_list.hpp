@@ -66,7 +66,8 @@ class ContactDetection {
   /// Distances between grains that the last search of all measured: what it cost.
   std::int64_t distances() const { return pairs_.distances(); }
   /// Pairs that the list holds from one search to the next, and what that takes.
-  std::size_t listed() const { return pairs_.listed(); }
+  std::span<const ListedPair> listed_pairs() const { return pairs_.listed_pairs(); }
+  std::size_t listed() const { return listed_pairs().size(); }
   std::size_t bytes() const { return pairs_.bytes() + grids_.bytes(); }
   /// Twice the displacement, in the last search, that the approach of its pairs may give a grain: 2 h a_i.
   double displacement_bound(std::int32_t body) const { return bounds_[body]; }

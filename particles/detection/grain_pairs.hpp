@@ -67,7 +67,7 @@ class GrainPairs {
   /// Those of them that are not in the list.
   std::int64_t far_distances() const { return far_distances_; }
   /// What the list holds from one search to the next.
-  std::size_t listed() const { return list_.size(); }
+  std::span<const ListedPair> listed_pairs() const { return list_; }
   std::size_t bytes() const;
 
  private:

@@ -21,6 +21,11 @@ struct ImpactBody {
   PathShift shift;                                    ///< of a grain
   int passes = 0;                                     ///< in which it took part
   std::int32_t place = -1;                            ///< in the pass in hand; -1: not there
+
+  /// The shift of the path on which it goes on from a pass at a time.
+  PathShift shift_at(double time) const {
+    return {{shift.x + time * (before_x - v_x), shift.z + time * (before_z - v_z)}, time};
+  }
 };
 
 /// A pair in a pass. Normal and tangent as in Candidate.
@@ -48,8 +53,10 @@ class ImpactPass {
   std::vector<ImpactBody> bodies;
   std::vector<ImpactContact> contacts;  ///< of the pass in hand
 
-  /// Forgets bodies and contacts.
-  void begin() { bodies.clear(), contacts.clear(); }
+  double time = 0;  ///< of the pass in hand
+
+  /// Forgets bodies and contacts; the next pass is at a time.
+  void begin(double at) { bodies.clear(), contacts.clear(), time = at; }
   /// Adds a contact, with W and its velocities before the pass.
   void add(ImpactContact contact);
   /// Velocity of a contact as it stands: normal, tangential.

@@ -77,8 +77,12 @@ Point Impacts::prescribed_velocity(const Candidate& pair) const {
                -free_velocity(step.walls.driven[k], step.driven[k], step.time_step));
 }
 
+/// Of a body of the impact in hand: that of the path on which it leaves.
 PathShift Impacts::shift(std::int32_t body) const {
-  if (place_[body] >= 0) return taken_[place_[body]].shift;
+  if (place_[body] >= 0) {
+    const ImpactBody& taken = taken_[place_[body]];
+    return taken.place < 0 ? taken.shift : pass_.bodies[taken.place].shift_at(pass_.time);
+  }
   const auto& shift = in_->step.free.shift;
   return shift.empty() || body >= grains() ? PathShift{} : shift[body];
 }
@@ -294,7 +298,7 @@ void Impacts::list_strikes(StepContacts& contacts) {
 }
 
 void Impacts::strike(const Event& event, StepContacts& contacts) {
-  pass_.begin();
+  pass_.begin(event.time);
   ++passes_;
   add(event.pair, path_of(in_->pairs[event.pair]).at(event.time), event.time);
   do {
@@ -306,9 +310,7 @@ void Impacts::strike(const Event& event, StepContacts& contacts) {
   list_strikes(contacts);
   closings_.clear();
   for (ImpactBody& body : pass_.bodies) {
-    body.shift.x += event.time * (body.before_x - body.v_x);
-    body.shift.z += event.time * (body.before_z - body.v_z);
-    body.shift.time = event.time;
+    body.shift = body.shift_at(event.time);
     ++body.passes;
     taken_[place_[body.body]] = body;  // in no pass
     each_pair_of(body.body, [&](std::int32_t a) { closings_.push_back(a); });

@@ -173,13 +173,9 @@ void place_at(const PairPath& path, double time, const Point* centre, Candidate&
   pair.gap = then.gap - (then.n_x * d.x + then.n_z * d.z);
 }
 
-/// A pair that impacts have struck: its surfaces part from within each other, so that none is left at the
-/// end. What overlap there was before, and what the path does not undo by itself, is no matter of velocities.
-void keep_parting(const PairPath& path, double gap_before, double h, Candidate& pair) {
-  if (pair.gap >= 0) return;
-  const Point d = path.displacement(h);
-  const double parts = std::max(0.0, pair.n_x * d.x + pair.n_z * d.z);
-  pair.gap = std::min(0.0, std::max(pair.gap - std::min(0.0, gap_before), -parts));
+/// An overlap from before the step is no matter of velocities: the pair may keep it.
+void keep_overlap(double gap_before, Candidate& pair) {
+  if (pair.gap < 0 && gap_before < 0) pair.gap = std::min(0.0, pair.gap - gap_before);
 }
 
 /// Whether a grain touches a wall and goes on into it: nearly all grains at walls.
@@ -196,7 +192,9 @@ bool stays_in_contact(const StepInput& step, const Candidate& pair) {
          0;
 }
 
-void place_at_wall(const StepInput& step, Candidate& pair) {
+/// `alone`: no other grain is near, so that the grain flies where the wall does not act (FreeMotion): further
+/// away from a wall below it than its velocity at the end of the step tells.
+void place_at_wall(const StepInput& step, bool alone, Candidate& pair) {
   const double h = step.time_step, gap_before = pair.gap;
   const Point shift = shift_of(step, pair.i);
   const bool shifted = shift.x != 0 || shift.z != 0;
@@ -205,9 +203,8 @@ void place_at_wall(const StepInput& step, Candidate& pair) {
     return;
   }
   if (!shifted && stays_apart(step, pair)) {
-    // The velocity at the end may be greater than that of the path.
     const Point g = step.laws.gravity.value_or(Point{});
-    pair.gap -= std::min(0.0, h * h / 2 * (pair.n_x * g.x + pair.n_z * g.z));
+    if (alone) pair.gap -= std::min(0.0, h * h / 2 * (pair.n_x * g.x + pair.n_z * g.z));
     return;
   }
   const PairPath path(step, pair, {step.bodies.v_x[pair.i], step.bodies.v_z[pair.i]}, {});
@@ -219,11 +216,11 @@ void place_at_wall(const StepInput& step, Candidate& pair) {
   const bool passes = end.gap >= 0 && driven_wall_of(step.walls, pair) < 0;
   if (shifted || pair.gap > 0 || pair.n_x * u.x + pair.n_z * u.z >= 0)
     place_at(path, passes ? h : path.meeting(0, h).value_or(h), container ? &centre : nullptr, pair);
-  if (passes) {
+  if (passes && alone) {
     const double most = end.gap - h * (pair.n_x * u.x + pair.n_z * u.z);
     pair.gap = std::max(pair.gap, shifted ? most : std::max(0.0, most));
   } else if (shifted) {
-    keep_parting(path, gap_before, h, pair);
+    keep_overlap(gap_before, pair);
   } else {
     pair.gap = std::max(0.0, pair.gap);
   }
@@ -235,19 +232,19 @@ void place_struck(const StepInput& step, Candidate& pair) {
   const double gap_before = pair.gap;
   const PairPath path(step, pair, {v_x[pair.i], v_z[pair.i]}, {v_x[pair.j], v_z[pair.j]});
   place_at(path, step.time_step, nullptr, pair);
-  keep_parting(path, gap_before, step.time_step, pair);
+  keep_overlap(gap_before, pair);
 }
 
 }  // namespace
 
-void place_pairs(const StepInput& step, std::span<Candidate> pairs) {
+void place_pairs(const StepInput& step, std::span<const char> beside_grains, std::span<Candidate> pairs) {
   const double h = step.time_step;
   const auto& v_x = step.bodies.v_x;
   const auto& v_z = step.bodies.v_z;
   const auto& shift = step.free.shift;
   for (Candidate& pair : pairs) {
     if (pair.j < 0) {
-      place_at_wall(step, pair);
+      place_at_wall(step, !beside_grains[pair.i], pair);
     } else if (!shift.empty() && (shift[pair.i].x != shift[pair.j].x || shift[pair.i].z != shift[pair.j].z)) {
       place_struck(step, pair);
     } else if (pair.gap <= 0) {

@@ -70,9 +70,11 @@ void turn_wall_velocity(const Surfaces& now, const Point& centre, Candidate& pai
 
 /// Gives pairs the gaps and normals with which the contact problem of a step takes them: of pairs that meet
 /// within the step those of the position where they meet, of discs that pass each other those of where they
-/// are nearest, since a plane through the surfaces as they are now would stop them. The gap is that along the
-/// normal, so that gap + (displacement within the step) . normal is the gap of the plane at the end; it is
-/// negative of struck pairs alone. A wall that a grain does not reach on its path stops nothing.
-void place_pairs(const StepInput& step, std::span<Candidate> pairs);
+/// are nearest, since a plane through the surfaces as they are now would stop them; of struck pairs those at
+/// the end of their paths. The gap is that along the normal, from where the paths begin: with any normal,
+/// gap + (displacement within the step) . normal >= 0 excludes an overlap at the end. It is negative of
+/// struck pairs alone, whose paths begin within each other. A wall that a grain does not reach on its path
+/// stops nothing. `beside_grains`: of each grain, whether it has a pair with another grain.
+void place_pairs(const StepInput& step, std::span<const char> beside_grains, std::span<Candidate> pairs);
 
 }  // namespace drumlin::particles

@@ -19,6 +19,7 @@
 #include "particles/stepping/position_projection.hpp"
 #include "particles/stepping/set_free_motion.hpp"
 #include "particles/stepping/snapshot_of_state.hpp"
+#include "particles/stepping/step_end.hpp"
 #include "particles/stepping/stopwatch.hpp"
 #include "particles/stepping/wall_crossing.hpp"
 
@@ -63,17 +64,16 @@ class MoreauJean final : public Stepper {
     if (step_energy_) step_energy_->open(bodies, state.energy);
     if (step_energy_ && state.cell && !state.energy->cell) state.energy->cell = 0;
     detect(step, state, watch, report);
-    attract(step, free_, contacts_);
     turn_freely(laws_, time_step, bodies);
-    assemble(step, contacts_, TeamLoops(&team_), problem_);
     report.setup_seconds += watch.lap();
-    report.contacts = problem_.contacts();
-    const bool open = laws_.period.open() && laws_.period.open_z();  // else positions are those of images
-    work_.places = open ? BodyPlaces{bodies.x, bodies.z} : BodyPlaces{};
-    report.solve = solve_(problem_, solver_.rule, work_, solution_);
+    solve(step, report, watch);
+    while (missed_.find(end_of(step), detection_, contacts_.pairs)) {
+      take_in(step, missed_.pairs());
+      solve(step, report, watch);
+    }
     find_lone_steps(step, state.memory);
     remember(contacts_.pairs, order_.order(), solution_.impulses, time_step, TeamLoops(&team_), state.memory);
-    move(bodies, time_step);
+    move(step, bodies);
     if (step_energy_) step_energy_->move(bodies, time_step, *state.energy);
     if (step_energy_) add_contact_work(step, contacts_, problem_, solution_, *step_energy_, *state.energy);
     if (state.cell) deform(step, state);
@@ -171,11 +171,50 @@ class MoreauJean final : public Stepper {
   /// The pairs found, in the order of the solve, with the normals of the time at which they meet.
   void take_candidates(const StepInput& step, std::span<const std::int32_t> order) {
     const auto found = detection_.candidates();
+    beside_.assign(step.bodies.count(), 0);
+    for (const Candidate& pair : found)
+      if (pair.j >= 0) beside_[pair.i] = beside_[pair.j] = 1;
     resize_closely(contacts_.pairs, found.size());
     TeamLoops(&team_).each(found.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t a = begin; a < end; ++a) contacts_.pairs[a] = found[order[a]];
-      place_pairs(step, std::span(contacts_.pairs).subspan(begin, end - begin));
+      place_pairs(step, beside_, std::span(contacts_.pairs).subspan(begin, end - begin));
     });
+  }
+
+  /// Assembles the contact problem of the pairs and solves it from the impulses at hand.
+  void solve(const StepInput& step, StepReport& report, Stopwatch& watch) {
+    attract(step, free_, contacts_);
+    assemble(step, contacts_, TeamLoops(&team_), problem_);
+    report.setup_seconds += watch.lap();
+    report.contacts = problem_.contacts();
+    const bool open = laws_.period.open() && laws_.period.open_z();  // else positions are those of images
+    work_.places = open ? BodyPlaces{step.bodies.x, step.bodies.z} : BodyPlaces{};
+    const int sweeps = report.solve.sweeps;
+    report.solve = solve_(problem_, solver_.rule, work_, solution_);
+    report.solve.sweeps += sweeps;
+    (void)watch.lap();
+  }
+
+  /// Takes pairs in that solved contacts have brought together, with the impulses so far.
+  void take_in(const StepInput& step, std::span<const Candidate> missed) {
+    const WorkMemory::Frame frame(&memory_);
+    const auto order = order_.order();
+    ContactMemory solved;
+    remember(contacts_.pairs, order, solution_.impulses, step.time_step, TeamLoops(&team_), solved);
+    std::vector<Candidate> pairs(contacts_.pairs.size() + missed.size());
+    for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) pairs[order[a]] = contacts_.pairs[a];
+    const auto added = std::span(pairs).last(missed.size());
+    std::copy(missed.begin(), missed.end(), added.begin());
+    place_pairs(step, beside_, added);
+    std::inplace_merge(
+        pairs.begin(), pairs.end() - missed.size(), pairs.end(),
+        [](const Candidate& a, const Candidate& b) { return std::pair(a.i, a.j) < std::pair(b.i, b.j); });
+    order_.find(pairs, step.bodies, laws_.period, problem_.W.plan);
+    contacts_.pairs.resize(pairs.size());
+    for (std::size_t a = 0; a < pairs.size(); ++a) contacts_.pairs[a] = pairs[order_.order()[a]];
+    recollection_.find(solved, pairs);
+    recollection_.warm_start(solved, dim, step.time_step, order_.order(), solution_.impulses);
+    move_freely(step);
   }
 
   /// The impacts of the step, on pairs in the order in which they are found.
@@ -271,22 +310,25 @@ class MoreauJean final : public Stepper {
     }
   }
 
-  /// New velocities from the solution, then new positions. Of driven walls the velocities alone.
-  void move(Bodies& bodies, double time_step) {
-    const bool loaded = problem_.contacts() > 0;
+  StepEnd end_of(const StepInput& step) const {
     const auto& changes = solution_.velocities.bodies;
-    TeamLoops(&team_).each(bodies.count(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t b = begin; b < end; ++b) {
-        const bool pushed = loaded && !(changes[b].x == 0 && changes[b].z == 0);
-        Point v{free_.x[b], free_.z[b]};
-        if (pushed) {
-          v = {v.x + changes[b].x, v.z + changes[b].z};
-          if constexpr (with_spin) spin_up(bodies, b, changes[b].s);
-        }
-        const Point d =
-            displacement_within_step(free_, b, {bodies.v_x[b], bodies.v_z[b]}, v, pushed, time_step);
+    return {step, problem_.contacts() > 0 ? std::span<const BodyVelocity>(changes)
+                                          : std::span<const BodyVelocity>()};
+  }
+
+  /// New velocities from the solution, then new positions. Of driven walls the velocities alone.
+  void move(const StepInput& step, Bodies& bodies) {
+    const StepEnd end = end_of(step);
+    const bool loaded = !end.changes.empty();
+    const auto& changes = solution_.velocities.bodies;
+    find_flights(end, contacts_.pairs, flies_);
+    TeamLoops(&team_).each(bodies.count(), [&](std::size_t begin, std::size_t stop) {
+      for (std::size_t b = begin; b < stop; ++b) {
+        const Point shift = end.shift(b), d = end.displacement(b, flies_[b]), v = end.velocity(b);
+        if constexpr (with_spin)
+          if (end.is_pushed(b)) spin_up(bodies, b, changes[b].s);
         bodies.v_x[b] = v.x, bodies.v_z[b] = v.z;
-        bodies.x[b] += d.x, bodies.z[b] += d.z;
+        bodies.x[b] += shift.x + d.x, bodies.z[b] += shift.z + d.z;
       }
     });
     for (const auto& [grain, place] : lone_) bodies.x[grain] = place.x, bodies.z[grain] = place.z;
@@ -335,6 +377,9 @@ class MoreauJean final : public Stepper {
   ThreadTeam team_;
   WorkMemory memory_;  // of one phase of a step after the other
   FreeMotion free_;
+  std::vector<char> flies_;   // of each grain: no contact acts
+  std::vector<char> beside_;  // of each grain: it has a pair with another
+  MissedPairs missed_;
   std::vector<std::pair<std::int32_t, Point>> lone_;  // grains on one wall, and where their step ends
   FreeMotion searched_;             // velocities by which pairs were last looked for, grain by grain
   std::vector<StruckDisc> struck_;  // since then

@@ -1,5 +1,5 @@
 #pragma once
-// Velocities of the grains without contacts, and their displacements with them.
+// Velocities of the grains without contacts.
 #include <algorithm>
 #include <cstddef>
 
@@ -25,15 +25,6 @@ inline void set_free_motion(const Bodies& bodies, const EffectsOf<LawOf>& laws, 
         law.move_freely(bodies, begin, end, time_step, free);
     });
   });
-}
-
-/// Displacement of grain b within a step h, from its velocity after impacts to the one at the end: with the
-/// latter where contacts act, which leaves no overlap; with the mean where none does, which is exact.
-inline Point displacement_within_step(const FreeMotion& free, std::size_t b, Point before, Point after,
-                                      bool loaded, double h) {
-  const Point v = loaded ? after : Point{(before.x + after.x) / 2, (before.z + after.z) / 2};
-  if (free.shift.empty()) return {h * v.x, h * v.z};
-  return {free.shift[b].x + h * v.x, free.shift[b].z + h * v.z};
 }
 
 /// What the effects make of spins within a step without contacts.

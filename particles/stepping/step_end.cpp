@@ -1,0 +1,69 @@
+#include "particles/stepping/step_end.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drumlin::particles {
+
+void find_flights(const StepEnd& end, std::span<const Candidate> pairs, std::vector<char>& flies) {
+  const std::size_t grains = end.step.bodies.count();
+  flies.resize(grains);
+  for (std::size_t b = 0; b < grains; ++b) flies[b] = !end.is_pushed(b);
+  if (end.changes.empty()) return;
+  for (bool again = true; again;) {
+    again = false;
+    for (const Candidate& pair : pairs) {
+      if (pair.j < 0 || flies[pair.i] == flies[pair.j]) continue;
+      const Point d_i = end.displacement(pair.i, flies[pair.i]),
+                  d_j = end.displacement(pair.j, flies[pair.j]);
+      const double h = end.step.time_step;
+      const Point d{d_i.x - d_j.x - h * pair.wall_v_x, d_i.z - d_j.z - h * pair.wall_v_z};
+      if (pair.gap + normal_part(pair, d) >= 0) continue;
+      flies[pair.i] = flies[pair.j] = 0;
+      again = true;
+    }
+  }
+}
+
+/// A pair beyond the search has a gap of at least margin + 2 h a + (bound_i + bound_j) / 2.
+bool MissedPairs::find_thrown(const StepEnd& end, const ContactDetection& detection) {
+  const double h = end.step.time_step, margin = end.step.laws.detection_margin;
+  bool any = false;
+  is_thrown_.assign(end.step.bodies.count(), 0);
+  for (std::size_t b = 0; b < is_thrown_.size(); ++b) {
+    const double bound = (margin + detection.displacement_bound(static_cast<std::int32_t>(b))) / (2 * h);
+    const BodyVelocity& change = end.changes[b];
+    is_thrown_[b] = change.x * change.x + change.z * change.z > bound * bound;
+    any |= is_thrown_[b] != 0;
+  }
+  return any;
+}
+
+bool MissedPairs::find(const StepEnd& end, const ContactDetection& detection,
+                       std::span<const Candidate> pairs) {
+  missed_.clear();
+  if (end.changes.empty() || !find_thrown(end, detection)) return false;
+  const Bodies& bodies = end.step.bodies;
+  const Period& period = end.step.laws.period;
+  const auto known = [&](const ListedPair& pair) {
+    return std::any_of(pairs.begin(), pairs.end(),
+                       [&](const Candidate& c) { return c.i == pair.i && c.j == pair.j; });
+  };
+  for (const ListedPair& pair : detection.listed_pairs()) {
+    if (!(is_thrown_[pair.i] | is_thrown_[pair.j])) continue;
+    const Point whole{bodies.x[pair.i] - bodies.x[pair.j], bodies.z[pair.i] - bodies.z[pair.j]};
+    const Point d = period.nearest(whole), image = period.image_velocity({whole.x - d.x, whole.z - d.z});
+    const double reach = bodies.radius[pair.i] + bodies.radius[pair.j];
+    Candidate found{pair.i, pair.j, 0, 0, 0, image.x, image.z};
+    found.gap = normal_of(d.x, d.z, found.n_x, found.n_z) - reach;
+    if (found.gap < end.step.laws.detection_margin) continue;  // is among the pairs
+    const Point from_i = end.shift(pair.i), from_j = end.shift(pair.j);
+    const Point d_i = end.displacement(pair.i, false), d_j = end.displacement(pair.j, false);
+    const double x = d.x + from_i.x - from_j.x + d_i.x - d_j.x - end.step.time_step * image.x;
+    const double z = d.z + from_i.z - from_j.z + d_i.z - d_j.z - end.step.time_step * image.z;
+    if (x * x + z * z < reach * reach && !known(pair)) missed_.push_back(found);
+  }
+  return !missed_.empty();
+}
+
+}  // namespace drumlin::particles

@@ -1,0 +1,58 @@
+#pragma once
+// The end of a step whose contacts are solved: which grains fly, and which end in others from which no pair
+// of the step kept them apart.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "particles/contact/disc_delassus.hpp"
+#include "particles/detection/contact_list.hpp"
+#include "particles/stepping/step_contacts.hpp"
+
+namespace drumlin::particles {
+
+/// The motion of grains over a step, from its beginning to the velocities that contacts leave.
+struct StepEnd {
+  const StepInput& step;
+  std::span<const BodyVelocity> changes;  ///< of velocities, by contacts; empty: none acts
+
+  bool is_pushed(std::size_t b) const {
+    return !changes.empty() && !(changes[b].x == 0 && changes[b].z == 0);
+  }
+  /// Velocity of a grain at the end.
+  Point velocity(std::size_t b) const {
+    const Point v{step.free.x[b], step.free.z[b]};
+    return is_pushed(b) ? Point{v.x + changes[b].x, v.z + changes[b].z} : v;
+  }
+  /// Displacement of a grain from where its path begins: with the velocity at the end where contacts act,
+  /// which leaves no overlap; with the mean of a grain that flies, which is exact.
+  Point displacement(std::size_t b, bool flies) const {
+    Point v = velocity(b);
+    if (flies) v = {(step.bodies.v_x[b] + v.x) / 2, (step.bodies.v_z[b] + v.z) / 2};
+    return {step.time_step * v.x, step.time_step * v.z};
+  }
+  /// From its position at the beginning to where its path begins.
+  Point shift(std::size_t b) const { return step.free.shift.empty() ? Point{} : Point(step.free.shift[b]); }
+};
+
+/// Sets `flies` of each grain: those that no contact pushes, and whose flight does not end in a pushed one.
+void find_flights(const StepEnd& end, std::span<const Candidate> pairs, std::vector<char>& flies);
+
+/// Finds pairs of grains that contacts have brought together and that the step did not take in; keeps
+/// workspace only.
+class MissedPairs {
+ public:
+  /// Looks among the listed pairs of the detection for those that overlap at the end and are not among
+  /// `pairs`, to which all with gaps below the margin belong; false if there are none.
+  bool find(const StepEnd& end, const ContactDetection& detection, std::span<const Candidate> pairs);
+  /// Of the last search, in the order of (i, j).
+  std::span<const Candidate> pairs() const { return missed_; }
+
+ private:
+  bool find_thrown(const StepEnd& end, const ContactDetection& detection);
+
+  std::vector<char> is_thrown_;  // grains that contacts push further than the search allowed for
+  std::vector<Candidate> missed_;
+};
+
+}  // namespace drumlin::particles
