@@ -282,8 +282,9 @@ class MoreauJean final : public Stepper {
   void find_lone_steps(const StepInput& step, const ContactMemory& memory) {
     lone_.clear();
     for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) {
-      if (problem_.W.j[a] != problem_.W.fixed() || solution_.impulses[dim * a] == 0) continue;
       Candidate& pair = contacts_.pairs[a];
+      if (problem_.W.j[a] != problem_.W.fixed() || solution_.impulses[dim * a] == 0 || beside_[pair.i])
+        continue;
       if constexpr (dim == 3)
         if (problem_.mu[2 * a + 1] > 0) continue;
       if (contacts_.attraction_of(a) > 0) continue;
