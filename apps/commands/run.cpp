@@ -126,7 +126,7 @@ class ParticleRun {
     }
     const auto& state = simulation_.state();
     const bool converged = particles::is_converged(last_);
-    add_up(last_, state.step, converged, totals_);
+    add_up(last_, simulation_, converged, totals_);
     if (state.step % scene_.output.log_every_steps == 0 || simulation_.finished() || last_.lost)
       log_step(converged);
     const bool fatal = !converged && (scene_.solver.stop_when_unconverged ||

@@ -13,8 +13,8 @@ inline constexpr const char* log_header =
 std::string log_line(const particles::StepReport& report, std::int64_t step, double time_s,
                      const std::string& stage, double kinetic_energy, bool converged);
 
-/// Adds a step to what a run has added up.
-void add_up(const particles::StepReport& report, std::int64_t step, bool converged,
+/// Adds the last step to what a run has added up.
+void add_up(const particles::StepReport& report, const particles::Simulation& simulation, bool converged,
             particles::RunTotals& totals);
 
 }  // namespace drumlin::apps

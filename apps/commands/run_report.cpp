@@ -48,6 +48,33 @@ nlohmann::ordered_json accuracy(const RunProgress& run, double steps) {
           {"unresolved_impacts", t.unresolved_impacts}};
 }
 
+/// The overlaps of the last stage, and where and when the deepest was.
+nlohmann::ordered_json stage_overlaps(const RunProgress& run) {
+  const auto& o = run.totals.stage_overlaps;
+  const double mm = 1e3 * run.simulation.scales().length_m;
+  nlohmann::ordered_json content = {
+      {"stage", run.scene.stages[o.stage].name},
+      {"overlap_mean", o.sum / static_cast<double>(std::max<std::int64_t>(1, o.steps))},
+      {"overlap_max", o.max}};
+  if (o.max > 0)
+    content["deepest"] = {{"step", o.step},   {"time_s", o.time_s}, {"grain", o.grain},
+                          {"other", o.other}, {"x_mm", mm * o.x},   {"z_mm", mm * o.z}};
+  return content;
+}
+
+std::string stage_overlaps_text(const RunProgress& run) {
+  const auto& o = run.totals.stage_overlaps;
+  if (o.steps == 0) return "";
+  std::string text = fmt::format("last stage, \"{}\": overlap mean {:.2g} d, largest {:.2g} d",
+                                 run.scene.stages[o.stage].name, o.sum / static_cast<double>(o.steps), o.max);
+  const double mm = 1e3 * run.simulation.scales().length_m;
+  if (o.max > 0)
+    text += fmt::format(" at t = {:.4g} s: {} and {} at x = {:.4g} mm, z = {:.4g} mm", o.time_s,
+                        o.grain > 0 ? fmt::format("grain {}", o.grain) : "a grain that crossed it",
+                        o.other > 0 ? fmt::format("grain {}", o.other) : "a wall", mm * o.x, mm * o.z);
+  return text + "\n";
+}
+
 nlohmann::ordered_json cost(const RunProgress& run, double steps) {
   const particles::RunTotals& t = run.totals;
   nlohmann::ordered_json content = {
@@ -203,6 +230,7 @@ nlohmann::ordered_json run_report(const RunProgress& run, RunStatus status) {
   report["simulated_seconds"] = state.time() * run.simulation.scales().time_s;
   report["snapshots"] = state.snapshots;
   report["accuracy"] = accuracy(run, steps);
+  report["accuracy"]["last_stage"] = stage_overlaps(run);
   report["cost"] = cost(run, steps);
   report["warnings"] = run_warnings(run);
   if (particles::ends_stages_early(run.scene)) report["stages"] = stage_ends(run);
@@ -227,6 +255,7 @@ std::string run_summary(const RunProgress& run) {
       t.cpu_seconds, t.unconverged_steps, run.scene.solver.tolerance, run.scene.solver.penetration_tolerance,
       t.residual_sum / steps, t.residual_max, t.penetration_sum / steps, t.penetration_max,
       t.sinking_sum / steps, t.sinking_max, t.overlap_sum / steps, t.overlap_max);
+  text += stage_overlaps_text(run);
   text += fmt::format("{:<12}{:>12}{:>12}{:>9}\n", "time", "s", "ms/step", "share");
   for (const TimePart& part : time_parts(t))
     text +=

@@ -38,6 +38,17 @@ void each_number_of_checkpoint(C& c, Visit visit) {
   visit("totals/sinking_max", t.sinking_max, {"d", "sinking, largest"});
   visit("totals/overlap_sum", t.overlap_sum, {"d", "overlap, summed over the steps"});
   visit("totals/overlap_max", t.overlap_max, {"d", "overlap, largest"});
+  auto& o = t.stage_overlaps;
+  visit("totals/stage/stage", o.stage);
+  visit("totals/stage/steps", o.steps);
+  visit("totals/stage/overlap_sum", o.sum, {"d", "overlap, summed over the steps of the stage"});
+  visit("totals/stage/overlap_max", o.max, {"d", "overlap, largest of the stage"});
+  visit("totals/stage/step", o.step);
+  visit("totals/stage/grain", o.grain);
+  visit("totals/stage/other", o.other);
+  visit("totals/stage/time_s", o.time_s, {"s", "time of the largest"});
+  visit("totals/stage/x", o.x, {"d", "place of the largest, to the right"});
+  visit("totals/stage/z", o.z, {"d", "place of the largest, upwards"});
   visit("totals/wall_seconds", t.wall_seconds, {"s", "wall time"});
   visit("totals/cpu_seconds", t.cpu_seconds, {"s", "processor time"});
   visit("totals/detection_seconds", t.detection_seconds, {"s", "wall time of detection"});
@@ -149,8 +160,9 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   Checkpoint checkpoint;
   checkpoint.scene = in.text("scene");
   each_number_of_checkpoint(checkpoint, [&in](const char* name, auto& value, H5Words = {}) {
-    if (std::string_view(name) == "totals/unresolved_impacts" && !in.has(name))
-      return;  // of an older version
+    const bool is_newer = name == std::string_view("totals/unresolved_impacts") ||
+                          std::string_view(name).starts_with("totals/stage/");
+    if (is_newer && !in.has(name)) return;  // of an older version
     if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>) {
       value = in.number(name);
       // Totals of steps that missed their tolerance may hold others.

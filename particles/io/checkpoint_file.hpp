@@ -10,6 +10,14 @@ namespace drumlin::particles {
 
 /// What a run has added up so far.
 struct RunTotals {
+  /// The overlaps of the last stage so far, and the step that had the deepest.
+  struct StageOverlaps {
+    std::int64_t stage = 0, steps = 0;
+    double sum = 0, max = 0;
+    std::int64_t step = 0, grain = 0, other = 0;  ///< grains count from 1; 0: a wall
+    double time_s = 0, x = 0, z = 0;
+  } stage_overlaps;
+
   std::int64_t unconverged_steps = 0;
   std::int64_t first_unconverged_step = 0;  ///< 0: none
   std::int64_t unresolved_impacts = 0;      ///< StepReport::impacts_unresolved, summed

@@ -367,7 +367,8 @@ class MoreauJean final : public Stepper {
                         overlaps_.close(), overlaps_.plan(), solver_.projection);
       pushed = crossings_.undo(walls, laws_.period, state.bodies);
     }
-    overlap.max = std::max({overlap.max, moved.deepest, pushed.deepest});
+    if (const double crossed = std::max(moved.deepest, pushed.deepest); crossed > overlap.max)
+      overlap = {overlap.mean, crossed, overlap.loaded};
     if (!lost) lost = moved.lost ? moved.lost : pushed.lost;
     return overlap;
   }

@@ -25,7 +25,10 @@ Overlap OverlapSearch::find(const MovedContacts& contacts, const Bodies& bodies,
   earlier_.assign(1, 0);
   for (const OverlapSums& more : sums_) {
     sum += more.depths;
-    overlap.max = std::max(overlap.max, more.deepest);
+    if (more.deepest > overlap.max) {
+      overlap.max = more.deepest;
+      overlap.grain = more.i, overlap.other = more.j;
+    }
     overlap.loaded += more.loaded;
     overlap_ |= more.overlap;
     earlier_.push_back(earlier_.back() + more.close);
@@ -37,6 +40,10 @@ Overlap OverlapSearch::find(const MovedContacts& contacts, const Bodies& bodies,
       plan_.group_start[g] =
           first < pairs.size() ? plan_.group_start[g] + earlier_[first / piece] : earlier_.back();
     }
+  if (const std::int64_t i = overlap.grain, j = overlap.other; i >= 0) {
+    overlap.x = bodies.x[i], overlap.z = bodies.z[i];
+    if (!bodies.id.empty()) overlap.grain = bodies.id[i], overlap.other = j < 0 ? j : bodies.id[j];
+  }
   if (overlap.loaded > 0) overlap.mean = sum / static_cast<double>(overlap.loaded);
   return overlap;
 }
@@ -68,7 +75,7 @@ OverlapSums OverlapSearch::overlaps_among(std::size_t begin, std::size_t end, co
     }
     const double depth = loaded ? std::max(0.0, -now.gap) : 0;
     sums.depths += depth;
-    sums.deepest = std::max(sums.deepest, depth);
+    if (depth > sums.deepest) sums.deepest = depth, sums.i = now.i, sums.j = now.j;
     sums.loaded += loaded;
     *close = now;
     close += now.gap < margin;

@@ -21,11 +21,14 @@ namespace drumlin::particles {
 struct Overlap {
   double mean = 0, max = 0;
   std::int64_t loaded = 0;
+  std::int64_t grain = -1, other = -1;  ///< of the deepest, by their ids where grains have any; < 0: a wall
+  double x = 0, z = 0;                  ///< centre of the grain
 };
 
 /// What pieces of the pairs add to it.
 struct OverlapSums {
   double depths = 0, deepest = 0;
+  std::int32_t i = -1, j = -1;  ///< the deepest pair
   std::int64_t loaded = 0;
   std::int32_t close = 0;  ///< pairs closer than the margin
   bool overlap = false;    ///< one of those has a negative gap

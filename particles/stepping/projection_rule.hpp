@@ -9,8 +9,8 @@ namespace drumlin::particles {
 // discs blew up so.
 inline constexpr double usual_correction_share = 0.2;
 inline constexpr double largest_correction = 2e-3;  // d per step
-// Overlaps of more than this, in d, are few: what a solve leaves at the same pair in several steps. All that is
-// beyond goes at once.
+// Overlaps of more than this, in d, are few: what a solve leaves at the same pair in several steps. All that
+// is beyond goes at once.
 inline constexpr double deep_overlap = 2.5e-4;
 // Of the residual, relative to the corrections asked for. A few plain Gauss-Seidel sweeps leave the contacts
 // that are solved early overlapped, the same ones in every step: their overlap grew to 0.1 d within a second.
