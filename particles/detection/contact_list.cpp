@@ -128,7 +128,7 @@ GrainMotion motion_of(const Bodies& bodies, std::span<const double> v_x, std::sp
 
 // Of the smallest diameter: pairs within are listed, and within as much more if the list is to be used again.
 // No wider, or grains have many more neighbours: the second shell of a dense packing begins at 0.73.
-constexpr double widest = 0.25;
+constexpr double widest = 0.25, thrown = 0.15;
 // A list is made anew when a search had to measure more distances of other pairs than this, for each grain,
 // or when a grain has moved further than this along x or z, in the smallest diameter.
 constexpr double most_far = 1, farthest_drift = 1;
@@ -136,9 +136,10 @@ constexpr double most_far = 1, farthest_drift = 1;
 constexpr int lists_used_once = 30;
 
 /// Gap up to which pairs are listed: all that any pair may close, but at most `widest`; pairs beyond are
-/// found by their speeds.
+/// found by their speeds. At least `thrown`: what contacts throw together is looked for in the list.
 double listed_range(const GrainMotion& motion, const DetectionInput& input) {
-  return input.margin + std::min(2 * input.time_step * motion.speeds, widest * motion.smallest);
+  const double closing = 2 * input.time_step * motion.speeds;
+  return input.margin + std::clamp(closing, thrown * motion.smallest, widest * motion.smallest);
 }
 
 /// Edge of the cells of the finest of the grids that list pairs up to a range.

@@ -67,7 +67,8 @@ class MoreauJean final : public Stepper {
     turn_freely(laws_, time_step, bodies);
     report.setup_seconds += watch.lap();
     solve(step, report, watch);
-    while (missed_.find(end_of(step), detection_, contacts_.pairs)) {
+    const FreeMotion& searched = laws_.restitution ? searched_ : free_;
+    while (missed_.find(end_of(step), searched, detection_, contacts_.pairs)) {
       take_in(step, missed_.pairs());
       solve(step, report, watch);
     }

@@ -25,24 +25,27 @@ void find_flights(const StepEnd& end, std::span<const Candidate> pairs, std::vec
   }
 }
 
-/// A pair beyond the search has a gap of at least margin + 2 h a + (bound_i + bound_j) / 2.
-bool MissedPairs::find_thrown(const StepEnd& end, const ContactDetection& detection) {
+/// A pair beyond the search has a gap of at least margin + 2 h a + (bound_i + bound_j) / 2, a being the speed
+/// at which it approached then.
+bool MissedPairs::find_thrown(const StepEnd& end, const FreeMotion& searched,
+                              const ContactDetection& detection) {
   const double h = end.step.time_step, margin = end.step.laws.detection_margin;
   bool any = false;
   is_thrown_.assign(end.step.bodies.count(), 0);
   for (std::size_t b = 0; b < is_thrown_.size(); ++b) {
-    const double bound = (margin + detection.displacement_bound(static_cast<std::int32_t>(b))) / (2 * h);
-    const BodyVelocity& change = end.changes[b];
-    is_thrown_[b] = change.x * change.x + change.z * change.z > bound * bound;
+    const double allowed = (margin + detection.displacement_bound(static_cast<std::int32_t>(b))) / 2;
+    const Point shift = end.shift(b), d = end.displacement(b, false);
+    const double x = shift.x + d.x - h * searched.x[b], z = shift.z + d.z - h * searched.z[b];
+    is_thrown_[b] = x * x + z * z > allowed * allowed;
     any |= is_thrown_[b] != 0;
   }
   return any;
 }
 
-bool MissedPairs::find(const StepEnd& end, const ContactDetection& detection,
+bool MissedPairs::find(const StepEnd& end, const FreeMotion& searched, const ContactDetection& detection,
                        std::span<const Candidate> pairs) {
   missed_.clear();
-  if (end.changes.empty() || !find_thrown(end, detection)) return false;
+  if (!find_thrown(end, searched, detection)) return false;
   const Bodies& bodies = end.step.bodies;
   const Period& period = end.step.laws.period;
   const auto known = [&](const ListedPair& pair) {

@@ -38,20 +38,22 @@ struct StepEnd {
 /// Sets `flies` of each grain: those that no contact pushes, and whose flight does not end in a pushed one.
 void find_flights(const StepEnd& end, std::span<const Candidate> pairs, std::vector<char>& flies);
 
-/// Finds pairs of grains that contacts have brought together and that the step did not take in; keeps
-/// workspace only.
+/// Finds pairs of grains that impacts and contacts have brought together and that the step did not take in;
+/// keeps workspace only.
 class MissedPairs {
  public:
   /// Looks among the listed pairs of the detection for those that overlap at the end and are not among
-  /// `pairs`, to which all with gaps below the margin belong; false if there are none.
-  bool find(const StepEnd& end, const ContactDetection& detection, std::span<const Candidate> pairs);
+  /// `pairs`, to which all with gaps below the margin belong; false if there are none. `searched`: the
+  /// velocities with which it looked last.
+  bool find(const StepEnd& end, const FreeMotion& searched, const ContactDetection& detection,
+            std::span<const Candidate> pairs);
   /// Of the last search, in the order of (i, j).
   std::span<const Candidate> pairs() const { return missed_; }
 
  private:
-  bool find_thrown(const StepEnd& end, const ContactDetection& detection);
+  bool find_thrown(const StepEnd& end, const FreeMotion& searched, const ContactDetection& detection);
 
-  std::vector<char> is_thrown_;  // grains that contacts push further than the search allowed for
+  std::vector<char> is_thrown_;  // grains that moved further than the search allowed for
   std::vector<Candidate> missed_;
 };
 
