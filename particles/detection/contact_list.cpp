@@ -289,7 +289,12 @@ bool ContactDetection::find_around(std::span<const StruckDisc> struck, const Bod
   const double range = 2 * input.margin + 2 * input.time_step * motion.speeds +
                        1.5 * *std::max_element(bounds_.begin(), bounds_.end());
   if (!is_local(struck, range + motion.largest)) {
+    const auto before = candidates();  // pairs that have met part now, and are far from each other still
+    const std::vector<Candidate> found(before.begin(), before.end());
     find(bodies, v_x, v_z, input);
+    found_ = found;
+    insert_found();
+    added_.clear();
     return true;
   }
   for (const StruckDisc& disc : struck) add_around(disc, range, bodies, v_x, v_z, input);

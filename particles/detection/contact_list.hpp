@@ -52,7 +52,8 @@ class ContactDetection {
   ///   gap < 2 margin + 2 h a + J_i / 2 + displacement_bound(k),
   /// J_i the displacement of the struck grain i, which becomes its bound. So all pairs are found that close
   /// within the step, if no grain is struck harder than (bound + margin) / (2 h) again. Looks around these
-  /// grains only, at the positions of the last search; anew at all grains where that would be most of them.
+  /// grains only, at the positions of the last search; at all grains where that would be most of them, and
+  /// then keeps the pairs found before.
   /// Returns whether the candidates are others than before.
   bool find_around(std::span<const StruckDisc> struck, const Bodies& bodies, std::span<const double> v_x,
                    std::span<const double> v_z, const DetectionInput& input);
