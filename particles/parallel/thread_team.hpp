@@ -1,7 +1,5 @@
 #pragma once
 // Thread team: threads that work on one solve together and meet many thousand times a second.
-#include <sys/types.h>
-
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -69,7 +67,7 @@ class ThreadTeam {
   std::chrono::steady_clock::time_point next_choice_{};
   long taken_away_ = 0;  // processors, so far
   std::vector<std::thread> helpers_;
-  pid_t owner_;  // the process that started them
+  int owner_;  // the process that started them
 };
 
 }  // namespace drumlin::particles
