@@ -97,7 +97,7 @@ def calibrate(I, mu, I_error=None, mu_error=None, *, nu, form="auto", draws=200,
 
     I, mu: arrays of one run, or lists of arrays, one of each run, whose scatter tells the band. Errors are standard errors; without them
     points count alike. nu: volume fraction of the bulk, which the law's file holds. form: "log", "log-linear", "table", "auto". draws: bootstrap
-    samples. All numbers are dimensionless. progress: shown or not; None: on a terminal alone.
+    samples; a band of 99 % needs 199. All numbers are dimensionless. progress: shown or not; None: on a terminal alone.
     """
     if np.ndim(I[0]) == 0:
         I, mu = [I], [mu]  # noqa: E741
