@@ -71,28 +71,6 @@ time.sleep(0.1)
     assert (result.returncode, result.stdout, result.stderr) == (0, "", "")
 
 
-@pytest.mark.parametrize("where", ["child", "parent"])
-def test_a_fork_goes_on_alone_where_its_threads_are_gone(where, data):
-    """Both print the same sum after a third step; the grains are enough for two threads to share them."""
-    program = f"""import os, sys
-sys.path.insert(0, {os.environ["DRUMLIN_PACKAGE"]!r})
-import drumlin
-simulation = drumlin.Simulation({str(data / "scenes/silo-recycled.toml")!r}, {{"grains.generated.count": 600}}, threads=2)
-simulation.run(steps=2)
-child = os.fork()
-if child:
-    os.waitpid(child, 0)
-if bool(child) == ({where!r} == "parent"):
-    simulation.step()
-    print(simulation.steps, simulation.z.sum())
-del simulation
-"""
-    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=600, check=True)
-    alone = drumlin.Simulation(data / "scenes/silo-recycled.toml", {"grains.generated.count": 600})
-    alone.run(steps=3)
-    assert result.stdout == f"3 {alone.z.sum()}\n"
-
-
 def test_an_argument_of_another_type_is_not_printed(box):
     simulation, many = drumlin.Simulation(box), np.full(60, 0.31415)
     for work in (lambda: drumlin.calibrate(many, many, nu=0.8, form=many), lambda: simulation.set_wall(many),
