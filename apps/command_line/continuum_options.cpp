@@ -45,7 +45,7 @@ void add_calibrate_options(CLI::App& command, CalibrateOptions& options) {
                       "Least inertial number that is fitted");
   add_optional_number(command, "--I-max", options.I_max, "", above(0), "Greatest one");
   add_number(command, "--draws", options.draws, "", at_least(16, 10000),
-             "Draws of the points for the 99 % band");
+             "Draws of the points for the 99 % band, which fewer than 199 do not hold");
   command.add_flag("--accept-unsteady", options.accept_unsteady,
                    "Takes runs that their measurement does not call steady, and says so");
   add_existing(command, options.existing, keep_what_is_done);

@@ -182,9 +182,10 @@ std::optional<AccuracyRecord> accuracy_record(const std::optional<fs::path>& giv
       throw InputError(file.string() + ": is of another scene: grains, walls, effects or motions differ");
     return record->runs;
   }
-  if (!fs::is_directory(cost_data_folder())) return std::nullopt;
+  const std::optional<fs::path> records = cost_data_folder();
+  if (!records) return std::nullopt;
   std::set<fs::path> files;  // in one order everywhere
-  for (const auto& entry : fs::directory_iterator(cost_data_folder()))
+  for (const auto& entry : fs::directory_iterator(*records))
     if (entry.path().extension() == ".json") files.insert(entry.path());
   for (const fs::path& file : files)
     if (const auto record = record_in(file); record && record->physics == ours) return record->runs;

@@ -59,8 +59,8 @@ std::vector<FigureScript> figures_of(const ComparedRuns& runs, const fs::path& o
   }
   // They are of full drums, and a reduced run shows no more than that the chain works.
   const bool reduced = runs.first.compared.profiles.header.reduced.value();
-  if (!reduced && fs::is_directory(cost_data_folder()))
-    figures.push_back({"report_costs.py", {cost_data_folder().string(), output.string()}});
+  if (const auto costs = cost_data_folder(); costs && !reduced)
+    figures.push_back({"report_costs.py", {costs->string(), output.string()}});
   return figures;
 }
 

@@ -10,10 +10,7 @@ import result_files
 
 def read_maps(path, with_intervals=False):
     """(header, grids): each field as a masked array over (z, x), with the nodes x and z, and on request ci99/NAME, beside them."""
-    try:
-        header, x, z, fields, half_widths = result_files.read_maps(path)
-    except ValueError as error:
-        raise SystemExit(str(error)) from error
+    header, x, z, fields, half_widths = result_files.read_maps(path)
     grids = {name: np.ma.masked_invalid(values) for name, values in fields.items()}
     if with_intervals:
         grids |= {"ci99/" + name: np.ma.masked_invalid(values) for name, values in half_widths.items()}

@@ -1,7 +1,8 @@
 """Runs a script as `python3 -I` does, with the script's own folder, that of the figures and the package that they lie in, and nothing else, added to
 what it may import from.
 SIGINT, SIGTERM and SIGHUP stop it once, as Ctrl-C does, so that it leaves no part of a file.
-A file that the system does not give or take ends it with one line, "FILE: why", and exit code 74; missing memory or a missing module likewise.
+A file that the system does not give or take ends it with one line, "FILE: why", and exit code 74; missing memory or a missing module likewise; a file
+that does not fit (result_files.py) with its own code.
 
 usage: python3 -I -B isolated.py SCRIPT [WORD...]
 """
@@ -58,6 +59,11 @@ if __name__ == "__main__":
     except ImportError as error:
         print(f"Python could not load a module: {error}", file=sys.stderr)
         sys.exit(NO_FILE)
+    except ValueError as error:
+        if not hasattr(error, "exit_code"):
+            raise
+        print(error, file=sys.stderr)
+        sys.exit(error.exit_code)
     except OSError as error:
         if error.filename is None or error.strerror is None:
             raise

@@ -21,10 +21,7 @@ class Maps:
     """Fields of one maps.h5; masked where there is no packing."""
 
     def __init__(self, path):
-        try:
-            self.header, self.x, self.z, self.fields, self.ci99 = result_files.read_maps(path, SHOWN, MOST_COLUMNS)
-        except ValueError as error:
-            raise SystemExit(str(error)) from error
+        self.header, self.x, self.z, self.fields, self.ci99 = result_files.read_maps(path, SHOWN, MOST_COLUMNS)
         with np.errstate(invalid="ignore"):
             self.empty = ~(self.fields["nu"] > style.LEAST_SHOWN_NU)
 

@@ -1,6 +1,6 @@
 """Files of results as arrays: the one place where Python reads tables, maps and snapshots. The package `drumlin` and the figures use it.
 
-What does not fit is a ValueError that names the file.
+What does not fit is DoesNotFit, a ValueError that names the file.
 """
 
 import csv
@@ -8,6 +8,23 @@ import math
 
 import h5py
 import numpy as np
+
+
+class DoesNotFit(ValueError):
+    """A file that holds something else than it should: its text names the file."""
+
+    exit_code = 2  # of a script, as of the commands
+
+
+class Columns(dict):
+    """Columns of a table by their names."""
+
+    def __init__(self, path, values):
+        super().__init__(values)
+        self.path = path
+
+    def __missing__(self, name):
+        raise DoesNotFit(f"{self.path}: {name}: no such column (it has {', '.join(self)})")
 
 
 def text_of(data):
@@ -24,17 +41,20 @@ def read_table(path, kind=None):
     """(format, header, columns) of a CSV file: lines "# key = value", a line of names, rows. An empty field is NaN, a column of words an array of
     texts. Of a table that still grows the last line may be half there: it is dropped. `kind`: the format that the file must have."""
     with open(path, newline="", encoding="utf-8") as stream:
-        text = stream.read()
+        try:
+            text = stream.read()
+        except ValueError as error:
+            raise DoesNotFit(f"{path}: is no text in UTF-8: {error}") from error
     lines = text[:text.rfind("\n") + 1].splitlines()
     comments = [line[1:].strip() for line in lines if line.startswith("#")]
     found = comments[0] if comments and "=" not in comments[0] else ""
     if kind is not None and found != kind:
-        raise ValueError(f"{path}: is {found or 'a table without a format'} (allowed: {kind})")
+        raise DoesNotFit(f"{path}: is {found or 'a table without a format'} (allowed: {kind})")
     entries = [line.partition("=") for line in comments if "=" in line]
     rows = list(csv.reader(line for line in lines if line and not line.startswith("#")))
     names = [name.strip() for name in rows[0]] if rows else []
     if any(len(row) != len(names) for row in rows):
-        raise ValueError(f"{path}: a line has more or fewer fields than the line of names")
+        raise DoesNotFit(f"{path}: a line has more or fewer fields than the line of names")
 
     def column(values):
         try:
@@ -42,7 +62,7 @@ def read_table(path, kind=None):
         except ValueError:
             return np.array(values)
 
-    columns = {name: column([row[i] for row in rows[1:]]) for i, name in enumerate(names)}
+    columns = Columns(path, {name: column([row[i] for row in rows[1:]]) for i, name in enumerate(names)})
     return found, {key.strip(): value.strip() for key, _, value in entries}, columns
 
 
@@ -57,7 +77,7 @@ def read_maps(path, names=None, most_columns=None):
     told; `most_columns`: of a wider map every second (third, ...) node along x and z is read, so that no more columns are left."""
     with h5py.File(path) as file:
         if text_of(file["format"]) != "drumlin-maps-1":
-            raise ValueError(f"{path}: is not a file of maps of this version")
+            raise DoesNotFit(f"{path}: is not a file of maps of this version")
         header = dict(line.split(" = ", 1) for line in text_of(file["header"]).splitlines())
         step = 1 if most_columns is None else max(1, math.ceil(file["x"].shape[0] / most_columns))
 

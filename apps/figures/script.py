@@ -8,6 +8,7 @@ import traceback
 
 import matplotlib.pyplot as plt
 
+import result_files
 import style
 import whole_file
 
@@ -34,12 +35,12 @@ def save_each(drawings, folder, reduced):
 
 def draw_each(drawings):
     """Calls each function of {name of a figure: function}. A figure that fails does not keep the others from being drawn; the
-    program then ends with the names of all that failed, and why. A file that cannot be written ends it at once: the others could not, either."""
+    program then ends with the names of all that failed, and why. A file that does not fit or cannot be written ends it at once."""
     failed = []
     for name, draw in drawings.items():
         try:
             draw()
-        except whole_file.CannotWrite:
+        except (whole_file.CannotWrite, result_files.DoesNotFit):
             raise
         except (Exception, SystemExit) as error:  # pylint: disable=broad-except
             place = traceback.extract_tb(error.__traceback__)[-1]

@@ -3,7 +3,6 @@
 import math
 import os
 import pathlib
-import sys
 import textwrap
 
 import matplotlib
@@ -194,14 +193,11 @@ def half_width_of(entry):
 
 def read_profiles(path):
     """(header, columns) of a profiles.csv of version 1; columns as arrays, NaN where the field is empty."""
-    try:
-        return result_files.read_table(path, "drumlin-profiles-1")[1:]
-    except ValueError as error:
-        sys.exit(str(error))
+    return result_files.read_table(path, "drumlin-profiles-1")[1:]
 
 
 def shown_layers(profile):
     """(header, columns) without the loosest layers: a handful of grains in the air would stretch every axis with their error bars."""
     header, columns = profile
     shown = columns["nu"] > LEAST_SHOWN_NU
-    return header, {name: values[shown] for name, values in columns.items()}
+    return header, result_files.Columns(columns.path, {name: values[shown] for name, values in columns.items()})

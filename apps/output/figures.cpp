@@ -33,6 +33,8 @@ ProcessRequest request_for(const std::string& script, const std::vector<std::str
 
 void require_success(const ProcessEnd& end, const std::string& script, const std::string& said) {
   stop_if_interrupted();
+  if (end.shell_code() == static_cast<int>(ExitCode::wrong_input))
+    throw InputError(said.substr(0, said.find_last_not_of('\n') + 1));
   if (!end.succeeded())
     throw IoError(fmt::format("{} failed:\n{}", fs::path(script).filename().string(), said));
 }
@@ -61,8 +63,6 @@ void draw_figures(const std::string& script, const std::vector<std::string>& arg
 std::string study_by_script(const std::string& script, const std::vector<std::string>& arguments) {
   std::string said;
   const ProcessEnd end = end_of_script("../study/" + script, arguments, said);
-  if (end.shell_code() == static_cast<int>(ExitCode::wrong_input))
-    throw InputError(said.substr(0, said.find_last_not_of('\n') + 1));
   require_success(end, "study", said);
   return said;
 }

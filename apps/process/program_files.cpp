@@ -14,10 +14,16 @@ namespace fs = std::filesystem;
 fs::path program_folder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
 
 /// The folder as it lies in a build tree or where the program is installed, as seen from the program.
-fs::path beside_program(const char* what, const char* built, const char* installed) {
-  const fs::path program = program_folder();
+std::optional<fs::path> found_beside_program(const char* built, const char* installed) {
   for (const char* place : {built, installed})
-    if (const fs::path found = (program / place).lexically_normal(); fs::is_directory(found)) return found;
+    if (const fs::path found = (program_folder() / place).lexically_normal(); fs::is_directory(found))
+      return found;
+  return std::nullopt;
+}
+
+fs::path beside_program(const char* what, const char* built, const char* installed) {
+  if (const auto found = found_beside_program(built, installed)) return *found;
+  const fs::path program = program_folder();
   throw IoError(fmt::format("{}: are missing; neither {} nor {} is a folder", what,
                             (program / built).lexically_normal().string(),
                             (program / installed).lexically_normal().string()));
@@ -38,6 +44,10 @@ std::optional<fs::path> figures_of_wheel() {
 }  // namespace
 
 fs::path data_folder() { return beside_program("scenes and records", "data", DRUMLIN_DATA_FROM_PROGRAM); }
+
+std::optional<fs::path> data_folder_if_any() {
+  return found_beside_program("data", DRUMLIN_DATA_FROM_PROGRAM);
+}
 
 std::string shipped_scene(const std::string& name) {
   std::error_code none;

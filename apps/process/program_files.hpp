@@ -2,12 +2,14 @@
 // Files that the programs use and do not hold: found from the place of the running program, in a build tree
 // as where it is installed, so that an installed tree may be moved.
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace drumlin::apps {
 
 /// Scenes, laws, records and the paper's numbers. Throws IoError where there are none.
 std::filesystem::path data_folder();
+std::optional<std::filesystem::path> data_folder_if_any();
 /// The shipped scene of that name, with or without ".toml", where no file has it; else the name itself.
 std::string shipped_scene(const std::string& name);
 /// The Python scripts that draw; the templates of pages stand beside it. Throws IoError likewise.

@@ -40,6 +40,27 @@ void translate(std::exception_ptr thrown) {
   }
 }
 
+/// Lets each function of a module or class say the types that it takes, not all that it was given.
+void say_types_alone(const py::object& holder, bool is_class) {
+  for (const auto& [name, found] : py::dict(py::module_::import("builtins").attr("vars")(holder))) {
+    if (PyType_Check(found.ptr())) say_types_alone(py::reinterpret_borrow<py::object>(found), true);
+    if (!PyCFunction_Check(found.ptr()) && !PyInstanceMethod_Check(found.ptr())) continue;
+    const auto call = [function = py::reinterpret_borrow<py::object>(holder.attr(name))](
+                          const py::args& values, const py::kwargs& named) -> py::object {
+      try {
+        return function(*values, **named);
+      } catch (const py::error_already_set& error) {
+        if (!error.matches(PyExc_TypeError)) throw;
+        const std::string text = py::str(error.value());
+        throw py::type_error(text.substr(0, text.find("\nInvoked with: ")));
+      }
+    };
+    const std::string word = py::str(name);
+    holder.attr(name) = is_class ? py::cpp_function(call, py::name(word.c_str()), py::is_method(holder))
+                                 : py::cpp_function(call, py::name(word.c_str()));
+  }
+}
+
 PyObject* refused(PyTypeObject* type, PyObject*, PyObject*) {
   PyErr_Format(PyExc_TypeError, "%s: is not made by its name", type->tp_name);
   return nullptr;
@@ -59,4 +80,5 @@ PYBIND11_MODULE(_drumlin, module) {
   drumlin::python::add_contacts(module);
   drumlin::python::add_laws(module);
   drumlin::python::add_files(module);
+  say_types_alone(module, false);
 }

@@ -10,20 +10,6 @@ namespace {
 
 constexpr double surface_nu = 0.7, flowing_I = 0.01;
 
-/// Height at which nu of a column of nodes crosses 0.7, sought from above; the highest node where it is
-/// denser already; NaN where it is nowhere that dense.
-double surface_z(const FieldMap& map, const std::vector<double>& nu, std::size_t column) {
-  const MapGrid& grid = map.grid;
-  for (std::size_t row = grid.rows; row-- > 0;) {
-    const double here = nu[row * grid.columns + column];
-    if (!(here >= surface_nu)) continue;
-    const double above = row + 1 < grid.rows ? nu[(row + 1) * grid.columns + column] : no_value;
-    if (!std::isfinite(above)) return grid.z_of(row);
-    return grid.z_of(row) + grid.spacing_z * (here - surface_nu) / (here - above);
-  }
-  return no_value;
-}
-
 /// One field of both sides at the nodes of the first.
 FieldOverlay map_overlay(const std::string& field, const FieldMap& first, const FieldMap& second) {
   const FieldValues ours = map_field(field, first), theirs = map_field(field, second);
@@ -48,13 +34,10 @@ std::vector<MapZone> map_zones(const FieldMap& map, const ZoneOptions& options) 
   const double radius = number_or_nan(map.header, &RunHeader::drum_radius);
   const double axis = number_or_nan(map.header, &RunHeader::axis_depth);
   const double third = std::sqrt(radius * radius - axis * axis) / 3;
-  const auto& nu = map.field("nu").value;
+  const std::vector<double> surface = surface_heights(map.grid, map.field("nu").value, surface_nu);
   const auto& I = map.field("I").value;
   std::vector<MapZone> zones{{"flowing", {}}, {"static", {}},     {"upstream", {}},
                              {"middle", {}},  {"downstream", {}}, {"all", {}}};
-  std::vector<double> surface;
-  for (std::size_t column = 0; column < map.grid.columns; ++column)
-    surface.push_back(surface_z(map, nu, column));
   for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
     const std::size_t column = node % map.grid.columns;
     const double x = map.grid.x_of(column), z = map.grid.z_of(node / map.grid.columns);

@@ -54,16 +54,6 @@ std::vector<Zone> zones_of(const ProfileSet& particles, double H, const ZoneOpti
           {"all", bottom, -options.surface_margin}};
 }
 
-double interpolated(const std::vector<double>& z, const std::vector<double>& value, double at) {
-  const auto upper = std::lower_bound(z.begin(), z.end(), at);
-  if (upper == z.end()) return no_value;
-  const auto i = static_cast<std::size_t>(upper - z.begin());
-  if (*upper == at) return value[i];
-  if (i == 0) return no_value;
-  const double share = (at - z[i - 1]) / (z[i] - z[i - 1]);
-  return (1 - share) * value[i - 1] + share * value[i];
-}
-
 FieldOverlay overlay(const std::string& field, const ProfileSet& particles, const ProfileSet& continuum) {
   const FieldValues ours = profile_field(field, particles), theirs = profile_field(field, continuum);
   const double position = number_or_nan(particles.header, &RunHeader::position);

@@ -42,9 +42,6 @@ struct FieldOverlay {
 /// if a side lacks v_x, a stress or the shear rate where the field needs it.
 FieldOverlay overlay(const std::string& field, const ProfileSet& particles, const ProfileSet& continuum);
 
-/// Value at z between the two entries around it; NaN outside of the range or beside a missing entry.
-double interpolated(const std::vector<double>& z, const std::vector<double>& value, double at);
-
 /// Errors of a field over a zone; NaN where no place of the zone has values on both sides. With p, c the
 /// values of the particles and of the continuum at the places of the zone, s_p, s_c their half widths:
 struct FieldErrors {

@@ -8,10 +8,11 @@
 namespace drumlin {
 
 /// The number that the whole of a text is, independent of the locale; nothing when it is none or does not fit
-/// into T. "nan" and "inf" are numbers of a floating T.
+/// into T. A plus may stand before it; "nan" and "inf" are numbers of a floating T.
 template <class T>
 std::optional<T> parsed_number(std::string_view text) {
   T value{};
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/no_value.hpp"
 
 namespace drumlin {
 namespace {
@@ -28,6 +29,18 @@ const MapField* FieldMap::find(const std::string& name) const {
 const MapField& FieldMap::field(const std::string& name) const {
   if (const MapField* found = find(name)) return *found;
   throw InputError("the maps have no field " + name);
+}
+
+std::vector<double> surface_heights(const MapGrid& grid, const std::vector<double>& nu, double surface_nu) {
+  std::vector<double> heights(grid.columns, no_value);
+  for (std::size_t node = 0; node < grid.nodes(); ++node) {
+    if (!(nu[node] >= surface_nu)) continue;
+    const std::size_t next = node + grid.columns;
+    const double above = next < grid.nodes() ? nu[next] : no_value;
+    const double share = std::isnan(above) ? 0 : (nu[node] - surface_nu) / (nu[node] - above);
+    heights[node % grid.columns] = grid.z_of(node / grid.columns) + share * grid.spacing_z;
+  }
+  return heights;
 }
 
 std::string fault_of(const FieldMap& map) {

@@ -40,6 +40,10 @@ struct FieldMap {
   const MapField& field(const std::string& name) const;  ///< throws InputError if it is missing
 };
 
+/// z of the highest node of each column with nu >= surface_nu, and on towards the node above, linearly to
+/// surface_nu, where that has a value; NaN where no node is that dense. `nu`: one per node.
+std::vector<double> surface_heights(const MapGrid& grid, const std::vector<double>& nu, double surface_nu);
+
 /// What keeps a map from being written or read, in words; empty when nothing does: a grid without nodes or
 /// with a spacing that is not positive, a field without a name or named twice, with another length than the
 /// grid, with an infinite number.

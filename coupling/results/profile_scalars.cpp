@@ -18,17 +18,6 @@ std::optional<StraightLine> fitted_line(const std::vector<double>& x, const std:
   return x.size() < 3 ? std::nullopt : statistics::fit_line(x, y);
 }
 
-/// Value at z between two layers; NaN outside the profile.
-double interpolated(const std::vector<double>& z, const std::vector<double>& value, double at) {
-  for (std::size_t i = 0; i + 1 < z.size(); ++i) {
-    if (z[i] <= at && at <= z[i + 1]) {
-      const double share = (at - z[i]) / (z[i + 1] - z[i]);
-      return (1 - share) * value[i] + share * value[i + 1];
-    }
-  }
-  return none;
-}
-
 /// Trapezoids over nu v_x. Layers without a grain carry nothing at the wall and above the surface; a gap
 /// inside the packing would be a hole in the data and makes Q NaN.
 double flow_rate(const std::vector<double>& z, const std::vector<double>& v_x,

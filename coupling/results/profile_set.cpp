@@ -12,6 +12,7 @@
 #include "coupling/common/errors.hpp"
 #include "coupling/common/files/input_file.hpp"
 #include "coupling/common/files/text_file.hpp"
+#include "coupling/common/no_value.hpp"
 #include "coupling/documents/csv.hpp"
 #include "coupling/documents/number_text.hpp"
 #include "coupling/results/quantities.hpp"
@@ -152,6 +153,16 @@ const ProfileColumn* ProfileSet::find(const std::string& name) const {
 const ProfileColumn& ProfileSet::column(const std::string& name) const {
   if (const auto* found = find(name)) return *found;
   throw InputError("the profiles have no column " + name);
+}
+
+double interpolated(const std::vector<double>& z, const std::vector<double>& value, double at) {
+  const auto upper = std::lower_bound(z.begin(), z.end(), at);
+  if (upper == z.end()) return no_value;
+  const auto i = static_cast<std::size_t>(upper - z.begin());
+  if (*upper == at) return value[i];
+  if (i == 0) return no_value;
+  const double share = (at - z[i - 1]) / (z[i] - z[i - 1]);
+  return (1 - share) * value[i - 1] + share * value[i];
 }
 
 std::string profile_table(const ProfileSet& profiles, const std::string& coordinate) {

@@ -28,6 +28,9 @@ struct ProfileSet {
   const ProfileColumn& column(const std::string& name) const;  ///< throws InputError if it is missing
 };
 
+/// Linear in z between two layers; at a layer its own value; NaN outside of them or beside a missing value.
+double interpolated(const std::vector<double>& z, const std::vector<double>& value, double at);
+
 /// The lines of a table as profiles.csv has them: names, of which the first is the coordinate's, then one
 /// line per layer.
 std::string profile_table(const ProfileSet& profiles, const std::string& coordinate = "z");

@@ -166,6 +166,9 @@ class CsvFrames {
     targets_.clear();
     time_ = -1;
     for (const std::string& name : names) {
+      if (name.find_first_of(";\t") != name.npos)
+        reader_->refuse("", fmt::format("the name \"{}\" holds a semicolon or a tab", name),
+                        "commas between names and numbers, points before decimals");
       Target target{name, nullptr, true};
       for (const KnownColumn& column : known_columns(content_)) {
         const std::string suffix = si_suffix(column.quantity);
@@ -176,7 +179,8 @@ class CsvFrames {
           if (other.column == &column) reader_->refuse(name, "appears twice", "one column for each quantity");
         if (column.quantity == Quantity::time) time_ = static_cast<int>(targets_.size());
       }
-      if (!target.column) notes_.unused_columns.insert(name);
+      if (target.header.empty()) target.header = fmt::format("column {} without a name", targets_.size() + 1);
+      if (!target.column) notes_.unused_columns.insert(target.header);
       targets_.push_back(target);
     }
   }
@@ -194,6 +198,7 @@ class CsvFrames {
       frame.time = static_cast<double>(frames_) * *interval_s_;
     }
     for (const Target& target : targets_) {
+      frame.all_names += (frame.all_names.empty() ? "" : ", ") + target.header;
       if (!target.column) continue;
       frame.words[target.column->name] = target.header;
       if (target.column->quantity != Quantity::time)

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/documents/csv.hpp"
 
 namespace drumlin::particles {
 
@@ -30,7 +31,8 @@ double unit_of(Quantity quantity, const Scales& scales) {
 std::vector<double> FrameTable::values(const std::string& name, const Scales& scales) const {
   const auto found = columns.find(name);
   if (found == columns.end())
-    throw InputError({{file, first_line, 0, word(name), "no such column", "docs/formats/import.md"}});
+    throw InputError({{file, first_line, 0, word(name),
+                       "no such column among " + std::string(trimmed(all_names)), "docs/formats/import.md"}});
   const auto& [values, quantity, in_si] = found->second;
   std::vector<double> scaled = values;
   if (in_si)

@@ -32,7 +32,9 @@ struct FrameTable {
   int first_line = 0;     ///< where the instant begins
   std::optional<double> time;
   bool time_in_si = true;
+  std::optional<double> period_m;  ///< along x, where the file says that it is periodic
   std::map<std::string, FrameColumn> columns;
+  std::string all_names;  ///< as they stand in the file
   /// What the file calls them, also those that it lacks: errors use its own words.
   std::map<std::string, std::string> words;
 

@@ -124,6 +124,11 @@ void add_displacements(const Snapshot& before, Snapshot& s) {
 }
 
 void add_grains(const FrameTable& table, const Rows& rows, Snapshot& s) {
+  constexpr double same = 1e-6;  // relative: of the digits that a user writes
+  const double period_m = s.period_x * s.scales.length_m;
+  if (period_m > 0 && table.period_m && !(std::abs(*table.period_m / period_m - 1) <= same))
+    table.refuse(table.rows(), "BOX BOUNDS", fmt::format("are periodic over {:g} m along x", *table.period_m),
+                 fmt::format("{:g} m, periodic_x.length_m of the description", period_m));
   const auto add = [&](const char* name, std::vector<double>& target, double sign = 1) {
     const std::vector<double> values = table.values(name, s.scales);
     for (const std::size_t row : rows.grains) target.push_back(sign * values[row]);

@@ -109,6 +109,11 @@ class ContactFrames {
     while (timed_ && waiting_ && waiting_->repeats(*frame));
     return frame;
   }
+  /// Without grains there are none; a frame that says so belongs to no snapshot.
+  void pass(const FrameTable& without_grains) {
+    if (waiting_ && waiting_->rows() == 0 && (!waiting_->time || waiting_->time == without_grains.time))
+      waiting_ = source_();
+  }
   bool used_up() const { return !waiting_; }
   void check_used_up() const {
     if (waiting_) waiting_->refuse(waiting_->rows(), "contacts", "there is no snapshot of grains for these");
@@ -207,6 +212,11 @@ ImportReport import_run(const ImportDescription& description, const fs::path& fo
     if (contacts && contacts->used_up() && !notes.contacts.cut_off.empty()) {
       leave_out(where, "its contacts are cut off");
       break;
+    }
+    if (!first_time && frame->rows() == 0) {
+      leave_out(where, "has no grains yet");
+      if (contacts) contacts->pass(*frame);
+      continue;
     }
     Rows own = rows_of(*frame, description);
     if (sequence.has_again(*frame, own)) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -16,6 +17,7 @@ namespace drumlin::particles {
 namespace {
 
 constexpr double same_unit = 1e-6;  // relative: of the digits that a user writes
+constexpr const char* second_radius = "second radius";
 
 /// A column of the dump: where it goes, what one of its units is in SI, what is added to it.
 struct DumpColumn {
@@ -29,6 +31,7 @@ struct DumpColumn {
 struct DumpBox {
   std::array<std::array<double, 2>, 3> bounds{};
   bool tilted = false;  ///< then the bounds are those around it
+  bool periodic_x = false;
 };
 
 /// What one unit of the dump is in SI.
@@ -107,13 +110,17 @@ class LammpsFrames {
         count = whole_number_below("NUMBER OF ...");
       } else if (item.starts_with("ITEM: BOX BOUNDS")) {
         require_first(!box, "BOX BOUNDS");
-        read_box(box.emplace());
+        const auto words = words_of(item);
+        box.emplace().periodic_x = std::find(words.begin(), words.end(), "pp") == words.end() - 3;
+        read_box(*box);
       } else if (item.starts_with(kind_.rows_item)) {
         if (!step) reader_->refuse(kind_.rows_item, "comes before ITEM: TIMESTEP", "");
         if (!count) reader_->refuse(kind_.rows_item, "comes before ITEM: NUMBER OF ...", "");
         const Units units = own_units();
         frame.time = time_of(step, time, units);
         if (time) frame.words["time"] = "TIME";
+        if (box && box->periodic_x && !box->tilted)
+          frame.period_m = (box->bounds[0][1] - box->bounds[0][0]) * units.metre;
         read_rows(item, static_cast<std::size_t>(*count), box, units, frame);
         return frame;
       } else {
@@ -205,6 +212,7 @@ class LammpsFrames {
     std::vector<DumpColumn> targets;
     for (const std::string_view name : names) {
       DumpColumn target = kind_.meaning(name, box.value_or(DumpBox{}), units);
+      if (target.name == "radius" && frame.has("radius")) target.name = second_radius;
       if (target.name.empty() || frame.has(target.name)) {
         notes_.unused_columns.insert(std::string(name));
         targets.emplace_back();
@@ -224,6 +232,7 @@ class LammpsFrames {
 
   void read_rows(const std::string& item, std::size_t count, const std::optional<DumpBox>& box,
                  const Units& units, FrameTable& frame) {
+    frame.all_names = item.substr(kind_.rows_item.size());
     const auto names = words_of(std::string_view(item).substr(kind_.rows_item.size()));
     const std::vector<DumpColumn> targets = targets_of(names, box, units, frame);
     std::vector<FrameColumn*> columns;
@@ -244,6 +253,19 @@ class LammpsFrames {
     }
     // The last number of a line without an end may lack digits.
     if (reader_->unended() && frames_ > 0) refuse_end("", "ends within a line");
+    check_radii(frame);
+  }
+
+  /// A radius and a diameter say the same.
+  static void check_radii(FrameTable& frame) {
+    const auto second = frame.columns.extract(second_radius);
+    if (second.empty()) return;
+    const std::vector<double>&radius = frame.columns.at("radius").values, &other = second.mapped().values;
+    for (std::size_t row = 0; row < radius.size(); ++row)
+      if (std::abs(radius[row] - other[row]) > same_unit * std::abs(radius[row]))
+        frame.refuse(row, "radius, diameter",
+                     fmt::format("say that the radius is {:g} m and {:g} m", radius[row], other[row]),
+                     "one of them, or a diameter of two radii");
   }
 
   std::vector<std::filesystem::path> files_;

@@ -100,13 +100,8 @@ VtuGrid contact_grid(const RunFolder& run, const Snapshot& s) {
 VtuGrid wall_grid(const RunFolder& run, const Snapshot& s) {
   const double metre = s.scales.length_m;
   VtuGrid grid;
-  grid.cell = VtuCell::poly_line;
+  grid.cell = VtuCell::line;  // meshio knows no lines of more than two points
   std::vector<std::int32_t> shape_numbers;
-  const auto close = [&](std::size_t first) {
-    for (std::size_t p = first; p < grid.points.size() / 3; ++p)
-      grid.connectivity.push_back(static_cast<std::int32_t>(p));
-    grid.offsets.push_back(static_cast<std::int32_t>(grid.connectivity.size()));
-  };
   std::int32_t shape = 0;
   for (const PlacedShape& placed : shapes_at(run, s)) {
     const std::size_t first = grid.points.size() / 3;
@@ -129,10 +124,13 @@ VtuGrid wall_grid(const RunFolder& run, const Snapshot& s) {
       const auto& disc = std::get<FixedDisc>(placed.shape);
       circle(disc.center, disc.radius, circle_pieces / 10);
     }
-    --shape;  // also that of an opened one, which is no cell: as in grain_or_wall_j of the contacts
-    if (is_open(placed.shape)) continue;
-    close(first);
-    shape_numbers.push_back(shape);
+    --shape;  // also that of an opened one, which has no cells: as in grain_or_wall_j of the contacts
+    for (std::size_t p = first + 1; p < grid.points.size() / 3; ++p) {
+      const auto end = static_cast<std::int32_t>(p);
+      grid.connectivity.insert(grid.connectivity.end(), {end - 1, end});
+      grid.offsets.push_back(static_cast<std::int32_t>(grid.connectivity.size()));
+      shape_numbers.push_back(shape);
+    }
   }
   grid.cell_data = {{"wall", 1, std::move(shape_numbers)}};
   return grid;

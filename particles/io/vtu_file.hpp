@@ -16,7 +16,7 @@ struct VtuArray {
   std::variant<std::vector<float>, std::vector<std::int32_t>> values;
 };
 
-enum class VtuCell : std::uint8_t { vertex = 1, line = 3, poly_line = 4 };
+enum class VtuCell : std::uint8_t { vertex = 1, line = 3 };
 
 /// Cells of one kind: cell c joins connectivity[offsets[c-1]] to connectivity[offsets[c] - 1].
 struct VtuGrid {

@@ -1,6 +1,7 @@
 #include "particles/parallel/thread_team.hpp"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <string>
@@ -61,7 +62,8 @@ void Barrier::meet() {
   round_.notify_all();
 }
 
-ThreadTeam::ThreadTeam(int threads) : barrier_(threads), members_(static_cast<std::size_t>(threads)) {
+ThreadTeam::ThreadTeam(int threads)
+    : barrier_(threads), members_(static_cast<std::size_t>(threads)), owner_(getpid()) {
   try {
     for (int t = 1; t < threads; ++t) helpers_.emplace_back([this, t] { help(t); });
   } catch (const std::system_error& error) {
@@ -75,7 +77,15 @@ ThreadTeam::ThreadTeam(int threads) : barrier_(threads), members_(static_cast<st
 
 ThreadTeam::~ThreadTeam() { end(); }
 
+void ThreadTeam::forget_lost_helpers() {
+  if (getpid() == owner_) return;
+  for (auto& helper : helpers_) helper.detach();
+  helpers_.clear();
+  barrier_.threads_ = 1;
+}
+
 void ThreadTeam::end() {
+  forget_lost_helpers();
   over_ = true;
   for (auto& member : members_) {
     member.jobs.fetch_add(1, whole_order);
@@ -85,6 +95,7 @@ void ThreadTeam::end() {
 }
 
 void ThreadTeam::run(const std::function<void(int, int)>& job) {
+  forget_lost_helpers();
   if (helpers_.empty()) return job(0, 1);
   choose_threads();
   if (threads() == 1) return job(0, 1);

@@ -29,7 +29,7 @@ class Barrier {
 /// Where other processes take the processors, threads wait for one that does not run. So the team looks now
 /// and then how often the system has taken a processor away from this process, and leaves the next jobs to
 /// the calling thread where that was often. Shares of a job must not decide its result: it may be given 1 or
-/// size() threads.
+/// size() threads. A process that fork() made of this one has no helpers: there it works alone.
 class ThreadTeam {
  public:
   /// Throws std::system_error if the system gives no more threads, and std::bad_alloc.
@@ -56,6 +56,7 @@ class ThreadTeam {
   void help(int t);
   void work(int t) noexcept;
   void choose_threads();
+  void forget_lost_helpers();
   void end();
 
   Barrier barrier_;
@@ -66,6 +67,7 @@ class ThreadTeam {
   std::chrono::steady_clock::time_point next_choice_{};
   long taken_away_ = 0;  // processors, so far
   std::vector<std::thread> helpers_;
+  int owner_;  // the process that started them
 };
 
 }  // namespace drumlin::particles

@@ -3,8 +3,9 @@
 usage: exit_codes.py DRUMLIN FOLDER_OF_THIS_TEST DATA
 """
 
+import shutil
 
-from command import bytes_below, given, read_json, require
+from command import SHORT_RUN, Drumlin, bytes_below, given, read_json, require
 
 
 def cell_too_short(drumlin, data, folder):
@@ -88,6 +89,9 @@ def main():
         print(f"{sum(map(len, refused.values()))} commands refused with exit code 2")
         cell_too_short(drumlin, data, folder)
         layer_at_rest(drumlin, data, folder)
+        alone = shutil.copy(drumlin.executable, folder / "drumlin-alone")  # no data, no scripts beside it
+        said, _ = Drumlin(str(alone))("run", scene, "-o", folder / "alone", *SHORT_RUN)
+        require("scenes and records" not in said and read_json(folder / "alone/run.json")["status"] == "finished", said)
 
 
 if __name__ == "__main__":

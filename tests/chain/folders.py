@@ -86,6 +86,10 @@ def edits_are_told(drumlin, run, folder):
     drumlin("accept", edited, "--reason", "older than manifests")
     drumlin("export", edited, "--vtu", "--snapshots", "last")
     drumlin("measure", edited, "--parts", "none", "--resume")
+    log.write_text(log.read_text(encoding="utf-8").replace("residual_max", "worst"), encoding="utf-8")
+    drumlin("accept", edited, "--reason", "another name of a column")
+    _, said = drumlin("report", edited, code=2)
+    require("log.csv: residual_max: no such column (it has step, " in said and "Traceback" not in said, said)
 
 
 def measured_belongs_to_its_run(drumlin, scene, run, folder):

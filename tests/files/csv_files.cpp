@@ -41,7 +41,9 @@ TEST(Csv, QuotesTextsThatASpreadsheetWouldCompute) {
 TEST(Csv, ReadsWholeFiniteNumbersAlone) {
   EXPECT_TRUE(std::isnan(csv_value("").value()));
   EXPECT_EQ(csv_value("-1e3"), -1000);
-  for (const char* text : {"1x", "nan", "inf", "1e999", "1 2", "x"}) EXPECT_FALSE(csv_value(text)) << text;
+  EXPECT_EQ(csv_value("+2.05e+01"), 20.5);
+  for (const char* text : {"1x", "++1", "+-1", "-+1", "+", "nan", "inf", "1e999", "1 2", "x"})
+    EXPECT_FALSE(csv_value(text)) << text;
   EXPECT_FALSE(finite_number(""));
 }
 

@@ -146,7 +146,10 @@ TEST(CsvImport, RefusesWithFileAndLine) {
             "grains.csv:4: time_s: 0.5 s does not go on from 1 s (allowed: times that ascend)"},
            {good + "2,2,0,0,0,0,0.5\n", "grains.csv:4: id: grain 1 is gone"},
            {good + "2,1,0,0,0,0,0.5\n2,2,1,0,0,0,0.5\n", "grain 2 was not there before"},
-           {"x_m,z_m,v_x_m_s,v_z_m_s\n0,0,0,0\n", "radius_m: no such column"},
+           {"x_m,z_m,v_x_m_s,v_z_m_s\n0,0,0,0\n",
+            "radius_m: no such column among x_m, z_m, v_x_m_s, v_z_m_s"},
+           {"x_m;z_m;radius_m\n0,5;0;1\n",
+            "grains.csv:1: the name \"x_m;z_m;radius_m\" holds a semicolon or a tab (allowed: commas"},
            {"time_s,x_m,x,z_m\n", "grains.csv:1: x: appears twice"},
            {"x_m,z_m,v_x_m_s,v_z_m_s,radius_m\n0,0,0,0,1\n", "the time is not known"},
            {good + "1,2,1,0,1e308,0,0.5\n", "grains.csv:4: v_x_m_s: is 3.19e+307 of the unit"},
@@ -157,7 +160,7 @@ TEST(CsvImport, RefusesWithFileAndLine) {
             "v_x_m_s: no such column (allowed: one, or grains.velocities"},
            {"\x1f\x8b\x08", "grains.csv: is compressed"},
            {"# nothing\n", "holds no line of column names"},
-           {names, "there are no grains"}}) {
+           {names, "hold no snapshot"}}) {
     const std::string said = refused(rows);
     expect_has(said, message);
   }

@@ -105,6 +105,35 @@ TEST(LammpsImport, ContactsReachAcrossTheSeam) {
   EXPECT_GT(result.snapshots[0].contacts.at(0).impulse_n, 0);
 }
 
+TEST(LammpsImport, ABoxThatIsPeriodicAlongXHasThePeriodOfTheDescriptionInEachFrame) {
+  const TemporaryFolder folder;
+  const std::string row = "1 0 0 5 0 0", columns = "id x y radius vx vy";
+  const std::string told = description("[periodic_x]\nlength_m = 20\n");
+  folder.with("dump.a", frame(1, columns, {row}));
+  EXPECT_NEAR(imported(folder, told).snapshots.at(0).period_x * 9.81, 20, 1e-12);
+  expect_has(refusal(folder, description("[periodic_x]\nlength_m = 30\n")),
+             "dump.a:1: BOX BOUNDS: are periodic over 20 m along x (allowed: 30 m, periodic_x.length_m");
+  std::string wider = frame(2, columns, {row});
+  folder.with("dump.a", frame(1, columns, {row}) + wider.replace(wider.find("-10 10"), 6, "-10 11"));
+  expect_has(refusal(folder, told), "dump.a:11: BOX BOUNDS: are periodic over 21 m along x (allowed: 20 m");
+  folder.with("dump.a", wider.replace(wider.find("pp ff"), 5, "ff pp"));
+  EXPECT_EQ(imported(folder, told).snapshots.size(), 1u) << "walls along x may lie anywhere";
+}
+
+TEST(LammpsImport, APourBeginsWithItsFirstGrain) {
+  const TemporaryFolder folder;
+  const std::string columns = "id x y radius vx vy";
+  folder.with("dump.a", frame(0, columns, {}) + frame(1, columns, {"1 0 0 5 0 0"}));
+  folder.with("contacts", frame(0, "a b fx fy", {}, "ENTRIES") + frame(1, "a b fx fy", {}, "ENTRIES"));
+  const auto result = imported(
+      folder,
+      description("contacts = [\"contacts\"]\ncontact_ids = [\"a\", \"b\"]\ncontact_forces = [\"fx\", "
+                  "\"fy\"]\ndepth_m = 1\n"));
+  ASSERT_EQ(result.snapshots.size(), 1u);
+  ASSERT_EQ(result.report.left_out.size(), 1u);
+  expect_has(result.report.left_out[0], "dump.a:1: has no grains yet");
+}
+
 TEST(LammpsImport, RefusesWithFileAndLine) {
   const TemporaryFolder folder;
   const std::string columns = "id x y radius vx vy";
@@ -112,6 +141,8 @@ TEST(LammpsImport, RefusesWithFileAndLine) {
            {frame(1, columns, {"1 0 0 1 0 0", "2 0 0 1 0"}), "dump.a:11: holds 5 fields (allowed: 6"},
            {frame(1, columns, {"1 0 0 1 nan 0"}), "dump.a:10: vx: \"nan\" is no number"},
            {frame(1, columns, {"1 0 0 0 0 0"}), "dump.a:10: radius: is not above 0"},
+           {frame(1, "id x y radius diameter vx vy", {"1 0 0 1 2 0 0", "2 5 0 1 1 0 0"}),
+            "dump.a:11: radius, diameter: say that the radius is 1 m and 0.5 m"},
            {frame(1, columns, {"1 0 0 1 0 0", "1 2 0 1 0 0"}), "dump.a:11: id: 1 appears twice"},
            {frame(1, "id x y vx vy", {"1 0 0 0 0"}), "radius or diameter: no such column"},
            {frame(1, "id x y radius vx", {"1 0 0 1 0"}), "vy: no such column"},
@@ -180,12 +211,12 @@ TEST(LammpsImport, ReadsTheUnitsAndTimesThatTheDumpNames) {
 
 TEST(LammpsImport, ReadsOnlyWhatItNeeds) {
   const TemporaryFolder folder;
-  folder.with("dump.a",
-              frame(4, "id type x xu y x radius diameter vx vy mol", {"1 sand 9.81 7 0 8 4.9 3 0 0 water"}));
+  folder.with("dump.a", frame(4, "id type x xu y x radius diameter vx vy mol",
+                              {"1 sand 9.81 7 0 8 4.9 9.8 0 0 water"}));
   const auto result = imported(folder, description());
   EXPECT_NEAR(result.snapshots.at(0).x.at(0), 1, 1e-12);  // the first that gives x
   EXPECT_NEAR(result.snapshots[0].radius[0] * 9.81, 4.9, 1e-12);
-  EXPECT_EQ(result.report.unused_columns, (std::vector<std::string>{"diameter", "mol", "type", "x", "xu"}));
+  EXPECT_EQ(result.report.unused_columns, (std::vector<std::string>{"mol", "type", "x", "xu"}));
   expect_has(refusal(folder, description("wall_types = [2]\n")), "dump.a:10: type: \"sand\" is no number");
   folder.with("dump.a", tilted("id x y radius vx vy", "1 2.5 1.5 4.9 0 0"));
   EXPECT_NEAR(imported(folder, description()).snapshots.at(0).x.at(0) * 9.81, 2.5, 1e-12);

@@ -44,6 +44,20 @@ TEST(MapFindings, BulkKeepsItsDistanceFromWallAndSurface) {
   EXPECT_EQ(nodes.size(), expected);
 }
 
+TEST(Surface, LiesBetweenTheHighestDenseNodeAndTheNextOrOnItBelowNoValue) {
+  const double none = std::nan("");
+  const std::vector<double> nu{0.8, 0.8, 0.8, none, 0.6,   //
+                               0.8, 0.7, 0.6, none, none,  //
+                               0.6, 0.0, 0.9, 0.8,  0.5,   //
+                               0.0, 0.0, 0.8, none, none};
+  const std::vector<double> z = surface_heights({0, -3, 1, 2, 5, 4}, nu, 0.7);
+  EXPECT_NEAR(z[0], 0, 1e-12);   // half of the way from -1 to 1
+  EXPECT_NEAR(z[1], -1, 1e-12);  // nu is that of the node
+  EXPECT_NEAR(z[2], 3, 1e-12);   // the highest row; a loose node below it does not count
+  EXPECT_NEAR(z[3], 1, 1e-12);   // nothing known above
+  EXPECT_TRUE(std::isnan(z[4])) << "nowhere dense";
+}
+
 TEST(MapFindings, FloorAndSidesTakeThePlaceOfADrum) {
   const FindingMap map = drum_map([](double x, double z) {
     FindingNode node = depth_law(x, z);

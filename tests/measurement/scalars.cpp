@@ -48,6 +48,14 @@ TEST(ProfileScalars, ReadBackWhatTheProfileWasMadeOf) {
   EXPECT_NEAR(scalars.Q, 0.8 * (straight + tail), 0.01 * scalars.Q);
 }
 
+TEST(ProfileScalars, ALayerBesideAMissingOneKeepsItsValue) {
+  const std::vector<double> z{-3, -2, -1}, value{1, 3, std::nan("")};
+  EXPECT_EQ(interpolated(z, value, -3), 1);
+  EXPECT_EQ(interpolated(z, value, -2.5), 2);
+  EXPECT_EQ(interpolated(z, value, -2), 3);
+  for (const double at : {-3.1, -1.5, -1.0, 0.0}) EXPECT_TRUE(std::isnan(interpolated(z, value, at))) << at;
+}
+
 TEST(ProfileScalars, WindowOutsideThePackingGivesNoDecayLength) {
   const ProfileScalars scalars = profile_scalars(drum_profile(-24));  // -H - 8 = -26
   EXPECT_NEAR(scalars.H, depth, 1e-4);

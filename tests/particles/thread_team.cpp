@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -68,6 +69,30 @@ TEST(ThreadTeam, ThrowsWhatAJobThrowsOnceAllAreDone) {
     team.run([&](int t, int) { shares += t == 0; });
     EXPECT_EQ(shares, 1);
   }
+}
+
+/// In the child a job and the end of the team wait for nobody; the parent's threads go on.
+TEST(ThreadTeam, AForkGoesOnAloneWhereTheThreadsAreGone) {
+  ThreadTeam team(2);
+  std::atomic<int> shares = 0;
+  const auto share = [&](int, int) {
+    team.meet();
+    ++shares;
+  };
+  team.run(share);
+  ASSERT_EQ(shares, 2) << "the first job has all threads";
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::alarm(60);  // ends what hangs
+    team.run(share);
+    team.~ThreadTeam();
+    ::_exit(shares == 3 ? 7 : 8);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 7) << status;
+  team.run(share);
+  EXPECT_GE(shares, 3);
 }
 
 TEST(Barrier, WakesWhoFallsAsleepJustWhenTheOthersCome) {

@@ -76,6 +76,9 @@ def test_every_file_of_the_data_is_read(data):
 
 
 def test_what_is_no_file_of_the_project_is_refused(tmp_path):
+    for reader in (drumlin.read, drumlin.Law):
+        with pytest.raises(drumlin.IoError, match="/dev/zero: is no file but .* a device"):
+            reader("/dev/zero")
     with pytest.raises(drumlin.IoError, match="is missing"):
         drumlin.read(tmp_path / "none.csv")
     (tmp_path / "a.png").write_bytes(b"")

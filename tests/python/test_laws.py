@@ -45,8 +45,9 @@ def test_wrong_points_are_refused(tmp_path):
     with pytest.raises(drumlin.InputError, match="not of one length"):
         drumlin.calibrate(I, measured(1)[1:], nu=0.81)
     for wrong in (0, -ERROR, np.nan, np.inf):
-        with pytest.raises(drumlin.InputError, match="mu_error: is .* at point 7"):
-            drumlin.calibrate(I, measured(1), mu_error=np.where(np.arange(I.size) == 7, wrong, ERROR), nu=0.81)
+        for name in ("I_error", "mu_error"):
+            with pytest.raises(drumlin.InputError, match=f"{name}: is .* at point 7"):
+                drumlin.calibrate(I, measured(1), **{name: np.where(np.arange(I.size) == 7, wrong, ERROR)}, nu=0.81)
     for names in ([], ["a"], ["a", "b", "c"]):
         with pytest.raises(drumlin.InputError, match=f"names: are {len(names)} of 2 runs"):
             drumlin.calibrate([I, I], [measured(1), measured(2)], nu=0.81, names=names)

@@ -113,8 +113,12 @@ def test_axes_units_and_scattered_points_change_nothing(tmp_path):
     ("# theta_deg = 19.5\n", "", "fields.csv: theta_deg: is missing in the header"), ("= surface", "= mine", 'fields.csv:7: axes: "mine" is not known .allowed: lab'),
     ("rpm = 6", "rpm = fast", 'fields.csv:1: rotation_rpm: "fast"'), ("vz (1)", "vz (km/h)", 'fields.csv:9:4: vz: has the unit "km/h" .allowed: vz .1., vz .m/s'),
     ("szz (1)", "pzz (1)", "fields.csv:9:7: pzz: is no column of fields"), ("dvz_dz (1)", "p (1)", "fields.csv:9: dvx_dx.*some are missing"),
-    ("\n-60.0,", "\nleft,", 'fields.csv:10:1: x: "left" is no number .allowed: a finite number'), ("\n-59.0,", "\n-59.0,,", "fields.csv:11: has 12 fields .allowed: 11"),
-    ("diameter_mm = 450", "diameter_mm = 400", r"fields.csv:\d+: x, z: lies outside of the drum")])
+    ("\n-60.0,", "\nleft,", 'fields.csv:10:1: x: "left" does not do .allowed: a number of at most'), ("\n-59.0,", "\n-59.0,,", "fields.csv:11: has 12 fields .allowed: 11"),
+    ("diameter_mm = 450", "diameter_mm = 400", r"fields.csv:\d+: x, z: lies outside of the drum"),
+    ("rpm = 6", "rpm = 1e300", "rpm: .*allowed: .*below 1e.09"),
+    ("\n-59.0,", "\n-60.0,", "fields.csv:11: x, z: is the point of line 10 again .allowed: each point once"),
+    (",0.0,", ",1e300,", r'fields.csv:\d+:4: vz: "1e300" does not do .allowed: a number of at most 1e.09, or nothing'),
+    ("# axes", "# theta_deg = 20\n# axes", "fields.csv:7: theta_deg: appears twice .allowed: once")])
 def test_faults_of_a_file_of_fields_have_line_and_column(tmp_path, old, new, words):
     path = write_fields(tmp_path / "fields.csv", {name: values[:1000] for name, values in fields().items()})
     path.write_text(path.read_text().replace(old, new, 1))
@@ -124,7 +128,8 @@ def test_faults_of_a_file_of_fields_have_line_and_column(tmp_path, old, new, wor
 
 def test_stress_that_is_not_what_it_should_be_is_refused(tmp_path):
     f = fields()
-    for change, words in (({"sxx": -f["sxx"], "szz": -f["szz"]}, "tensions"), ({"p": 2 * f["sxx"]}, r"fields.csv:\d+:12: p: .*the mean of sxx and szz")):
+    for change, words in (({"vz": np.nan * f["vz"]}, "vz: holds no number"),
+                          ({"sxx": -f["sxx"], "szz": -f["szz"]}, "tensions"), ({"p": 2 * f["sxx"]}, r"fields.csv:\d+:12: p: .*the mean of sxx and szz")):
         with pytest.raises(drumlin.InputError, match=words):
             study.read_fields(write_fields(tmp_path / "fields.csv", f | change))
 

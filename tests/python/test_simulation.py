@@ -82,6 +82,19 @@ def test_a_scene_starts_with_the_grains_of_another_run(box, tmp_path):
         drumlin.Simulation(follows)
 
 
+def test_files_of_a_scene_that_is_no_file_count_from_the_current_folder(box, tmp_path, monkeypatch):
+    here, there = tmp_path / "here", tmp_path / "there"
+    for folder, count in ((here, 2), (there, 1)):
+        folder.mkdir()
+        (folder / "g.csv").write_text("x_mm,z_mm,diameter_mm\n" + "".join(f"{3 * k + 3},3,2\n" for k in range(count)))
+    monkeypatch.chdir(here)
+    listed = box | {"grains": {"density_kg_m3": 2700, "listed": {"file": "g.csv"}}}
+    for number, (scene, changes) in enumerate([(listed, {}), (drumlin.toml_of({"format": "drumlin-scene-1"} | listed), {}),
+                                               (listed, {"grains.listed.file": "g.csv"})]):
+        run = drumlin.run(scene, there / f"RUN{number}", changes | {"stages.0.duration_s": 0.01})
+        assert run["run.json"]["grains"] == len(drumlin.Simulation(scene, changes).x) == 2
+
+
 def test_errors_have_the_texts_of_the_commands(box, tmp_path):
     box["effects"]["friction"]["grain_grain"] = -1
     with pytest.raises(drumlin.InputError) as refused:
@@ -144,6 +157,9 @@ def test_a_sweep_runs_every_combination_of_a_dict_and_goes_on(box, tmp_path, cap
     assert [(folder.path / "run.json").stat().st_mtime_ns for _, folder in again] == written
     with pytest.raises(drumlin.InputError, match="grain_grain"):
         drumlin.sweep(box, {"effects.friction.grain_grain": [-1]}, tmp_path / "other", progress=False)
+    for processes in (0, -1):
+        with pytest.raises(drumlin.InputError, match="processes: is .*allowed: 1 or more"):
+            drumlin.sweep(box, values, tmp_path / "other", processes=processes)
 
 
 def test_objects_tell_what_they_are(box, data):

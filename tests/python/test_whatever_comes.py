@@ -71,6 +71,15 @@ time.sleep(0.1)
     assert (result.returncode, result.stdout, result.stderr) == (0, "", "")
 
 
+def test_an_argument_of_another_type_is_not_printed(box):
+    simulation, many = drumlin.Simulation(box), np.full(60, 0.31415)
+    for work in (lambda: drumlin.calibrate(many, many, nu=0.8, form=many), lambda: simulation.set_wall(many),
+                 lambda: drumlin.Simulation(box, threads=many), lambda: _drumlin.law(many)):
+        with pytest.raises(TypeError, match="argument types are supported") as refused:
+            work()
+        assert "3141" not in str(refused.value)
+
+
 @pytest.mark.parametrize("cls", [drumlin.Simulation, drumlin.Law, drumlin.laws.CalibratedLaw])
 def test_an_object_without_its_beginning_has_no_content(cls):
     empty = cls.__new__(cls)

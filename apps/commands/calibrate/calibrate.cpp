@@ -264,6 +264,10 @@ int calibrate(const CalibrateOptions& options) {
                         score_text("predicted", calibration.predictions), one_law_text(calibration),
                         memory_text(calibration)));
   if (calibration.nonlocal) print_out(nonlocal_text(*calibration.nonlocal));
+  constexpr int fewest = 199;  // one of them beyond each end of 99 %
+  if (options.draws < fewest)
+    print_out(fmt::format("  warning: the 99 % band lies beyond {} draws and is too narrow; {} hold it\n",
+                          options.draws, fewest));
   for (const MeasuredRun& run : all)
     for (const std::string& reason : run.unsteady)
       print_out(fmt::format("  warning: {} is not steady: {}\n", run.name, reason));

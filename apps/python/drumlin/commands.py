@@ -1,6 +1,7 @@
 """The commands, for what Python does not do by itself: each is started as a process and raises what it refuses or fails at."""
 
 import itertools
+import operator
 import os
 import pathlib
 import re
@@ -9,6 +10,7 @@ import signal
 import subprocess
 import tempfile
 import time
+import tomllib
 
 from .errors import DrumlinError, InputError, IoError, NotConvergedError
 from .files import Folder, read
@@ -120,14 +122,25 @@ def _written(value, output, kind):
     return file
 
 
+def _from_here(entry):
+    """A part of a scene that is no file yet: its lists of grains and its runs count from the current folder."""
+    if isinstance(entry, dict):
+        return {key: os.path.abspath(value) if value and str(key).split(".")[-1] in ("file", "run") and isinstance(value, (str, os.PathLike))
+                else _from_here(value) for key, value in entry.items()}
+    return [_from_here(value) for value in entry] if isinstance(entry, (list, tuple)) else entry
+
+
 def _scene_file(scene, output, form):
-    if isinstance(scene, dict):
-        return _written({"format": form} | scene, output, "scene")
-    return _written(scene, output, "scene") if isinstance(scene, str) and "\n" in scene else scene
+    if isinstance(scene, str) and "\n" in scene:
+        try:
+            scene = tomllib.loads(scene)
+        except tomllib.TOMLDecodeError:  # the command says what is wrong, and where
+            return _written(scene, output, "scene")
+    return _written({"format": form} | _from_here(scene), output, "scene") if isinstance(scene, dict) else scene
 
 
-def _sets(changes):
-    return [word for change in overrides_of(changes) for word in ("--set", change)]
+def _sets(changes, from_here):
+    return [word for change in overrides_of(_from_here(changes) if from_here else changes) for word in ("--set", change)]
 
 
 def run(scene, output, changes=(), threads: int = 1, overwrite: bool = False, resume: bool = False, progress: bool | None = None) -> Folder:
@@ -137,7 +150,8 @@ def run(scene, output, changes=(), threads: int = 1, overwrite: bool = False, re
     resume: goes on where a call was interrupted. Ctrl-C leaves a checkpoint. progress: shown or not; None: on a terminal alone.
     """
     output = pathlib.Path(output)
-    _command(["run", _scene_file(scene, output, "drumlin-scene-1"), "-o", output, "--threads", threads, *_sets(changes), *_existing(overwrite),
+    file = _scene_file(scene, output, "drumlin-scene-1")
+    _command(["run", file, "-o", output, "--threads", threads, *_sets(changes, file is not scene), *_existing(overwrite),
               *(["--resume"] if resume else [])], "run", output, progress)
     return read(output)
 
@@ -149,8 +163,8 @@ def solve_flow(scene, law, output, changes=(), overwrite: bool = False, progress
     """
     output = pathlib.Path(output)
     law = _written(law, output, "law") if hasattr(law, "write") else law
-    _command(["flow", _scene_file(scene, output, "drumlin-flow-scene-1"), "--rheology", law, "-o", output, *_sets(changes), *_existing(overwrite)],
-             "flow", output, progress)
+    file = _scene_file(scene, output, "drumlin-flow-scene-1")
+    _command(["flow", file, "--rheology", law, "-o", output, *_sets(changes, file is not scene), *_existing(overwrite)], "flow", output, progress)
     return read(output)
 
 
@@ -185,9 +199,11 @@ def sweep(scene, values: dict, output, processes: int | None = None, progress: b
     Returns [(changes, folder), ...] in the order of the combinations; the folders lie in `output`, named by their numbers, from 000 on. The same
     call again goes on where one was interrupted: Ctrl-C leaves a checkpoint of each run. A run that fails raises its error once the others have ended.
     """
+    if processes is not None and not operator.index(processes) >= 1:
+        raise InputError(f"processes: is {processes} (allowed: 1 or more; None: one for each processor)")
     output = pathlib.Path(output)
     output.mkdir(parents=True, exist_ok=True)
-    scene = _scene_file(scene, output / "sweep", "drumlin-scene-1")
+    file = _scene_file(scene, output / "sweep", "drumlin-scene-1")
     plans = [dict(zip(values, chosen)) for chosen in itertools.product(*values.values())]
     waiting, at_work, failures = list(enumerate(plans)), [], []
     with Progress("sweep", len(plans), progress, output) as bar:
@@ -195,7 +211,7 @@ def sweep(scene, values: dict, output, processes: int | None = None, progress: b
             while waiting or at_work:
                 while waiting and len(at_work) < (processes or os.cpu_count()):
                     number, plan = waiting.pop(0)
-                    at_work.append(_Process(["run", scene, "-o", output / f"{number:03}", "--threads", 1, "--resume", *_sets(plan)]))
+                    at_work.append(_Process(["run", file, "-o", output / f"{number:03}", "--threads", 1, "--resume", *_sets(plan, file is not scene)]))
                 time.sleep(0.05)
                 for process in [process for process in at_work if process.has_ended()]:
                     at_work.remove(process)

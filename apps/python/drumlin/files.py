@@ -11,7 +11,7 @@ import scipy.sparse
 from . import _drumlin
 from .errors import DrumlinError, InputError, IoError
 from .figures import result_files
-from .inputs import file_name
+from .inputs import file_name, require_file
 
 
 class Arrays(dict):
@@ -142,8 +142,7 @@ def read(path):
     path = pathlib.Path(os.fsdecode(file_name(path)))
     if path.is_dir():
         return Folder(path)
-    if not path.is_file():
-        raise IoError(f"{path}: is missing")
+    require_file(path)
     if path.suffix not in READERS:
         raise InputError(f"{path}: no file of Drumlin's (allowed: a folder, {', '.join(READERS)})")
     try:

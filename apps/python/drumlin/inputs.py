@@ -4,7 +4,7 @@ import os
 
 import numpy as np
 
-from .errors import InputError
+from .errors import InputError, IoError
 
 
 def file_name(path):
@@ -13,6 +13,12 @@ def file_name(path):
     if b"\0" in name:
         raise InputError(f"{path!r}: is no name of a file: it holds a NUL character")
     return name
+
+
+def require_file(path):
+    """Of anything else reading may never end."""
+    if not path.is_file():
+        raise IoError(f"{path}: is {'no file but a folder, a device, a FIFO or a socket' if path.exists() else 'missing'}")
 
 
 def real(name, values):

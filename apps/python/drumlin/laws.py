@@ -9,7 +9,7 @@ import numpy as np
 from . import _drumlin
 from .errors import InputError, IoError
 from .figures import whole_file
-from .inputs import file_name, real
+from .inputs import file_name, real, require_file
 from .progress import Progress
 
 
@@ -54,8 +54,10 @@ class Law:
 
 
 def _text_of_file(path):
+    file = pathlib.Path(os.fsdecode(file_name(path)))
+    require_file(file)
     try:
-        return pathlib.Path(os.fsdecode(file_name(path))).read_text(encoding="utf-8")
+        return file.read_text(encoding="utf-8")
     except OSError as error:
         raise IoError(f"{path}: {error.strerror}") from error
 
@@ -95,7 +97,7 @@ def calibrate(I, mu, I_error=None, mu_error=None, *, nu, form="auto", draws=200,
 
     I, mu: arrays of one run, or lists of arrays, one of each run, whose scatter tells the band. Errors are standard errors; without them
     points count alike. nu: volume fraction of the bulk, which the law's file holds. form: "log", "log-linear", "table", "auto". draws: bootstrap
-    samples. All numbers are dimensionless. progress: shown or not; None: on a terminal alone.
+    samples; a band of 99 % needs 199. All numbers are dimensionless. progress: shown or not; None: on a terminal alone.
     """
     if np.ndim(I[0]) == 0:
         I, mu = [I], [mu]  # noqa: E741
@@ -105,8 +107,9 @@ def calibrate(I, mu, I_error=None, mu_error=None, *, nu, form="auto", draws=200,
     for columns in zip(I, mu, unknown if I_error is None else I_error, unknown if mu_error is None else mu_error, strict=True):
         length = np.size(columns[0])
         runs.append([np.full(length, np.nan) if column is None else real("I, mu or an error", column).reshape(-1) for column in columns])
-        if columns[3] is not None:
-            _checked_errors("mu_error", runs[-1][3])
+        for what, given, errors in zip(("I_error", "mu_error"), columns[2:], runs[-1][2:]):
+            if given is not None:
+                _checked_errors(what, errors)
     names = [f"run {k + 1}" for k in range(len(runs))] if names is None else list(names)
     if len(names) != len(runs):
         raise InputError(f"names: are {len(names)} of {len(runs)} runs (allowed: one for each)")

@@ -16,21 +16,6 @@ double wall_distance(const MapBounds& bounds, double x, double z) {
   return std::min({z - bounds.z_min, x - bounds.x_min, bounds.x_max - x});
 }
 
-/// Highest z of a column where nu crosses `surface_nu`, linear between nodes; minus infinity when it never
-/// does.
-double surface_z(const FindingMap& map, std::size_t column, double surface_nu) {
-  const MapGrid& grid = map.grid;
-  double above = 0;
-  for (std::size_t row = grid.rows; row-- > 0;) {
-    const double nu = map.nodes[row * grid.columns + column].nu, here = std::isnan(nu) ? 0 : nu;
-    if (!(here < surface_nu))
-      return row + 1 == grid.rows ? grid.z_of(row)
-                                  : grid.z_of(row) + grid.spacing_z * (here - surface_nu) / (here - above);
-    above = here;
-  }
-  return -std::numeric_limits<double>::infinity();
-}
-
 using Nodes = std::vector<std::size_t>;
 using Value = double FindingNode::*;
 
@@ -116,9 +101,9 @@ LogLine line_through(const Points& points) {
 
 Nodes bulk_nodes(const FindingMap& map, const MapBounds& bounds, const MapFindingOptions& options) {
   Nodes nodes;
-  std::vector<double> surface(map.grid.columns);
-  for (std::size_t column = 0; column < surface.size(); ++column)
-    surface[column] = surface_z(map, column, options.surface_nu);
+  std::vector<double> nu;
+  for (const FindingNode& node : map.nodes) nu.push_back(node.nu);
+  const std::vector<double> surface = surface_heights(map.grid, nu, options.surface_nu);
   for (std::size_t node = 0; node < map.nodes.size(); ++node) {
     const std::size_t column = node % map.grid.columns;
     const double x = map.grid.x_of(column), z = map.grid.z_of(node / map.grid.columns);

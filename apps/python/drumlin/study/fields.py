@@ -23,7 +23,8 @@ G = 9.81  # m/s^2
 SPACING = 0.5  # d, of the nodes that scattered points are interpolated to
 ROOM = 1.02  # radii of the drum within which all points lie
 AGREE = 0.01  # p against the mean of sxx and szz, of the largest p
-NUMBERS = {"rotation_rpm": 0, "drum_diameter_mm": 0, "grain_diameter_mm": 0, "density_kg_m3": 0, "theta_deg": -90, "surface_depth_mm": -math.inf}  # above
+MOST = 1e9  # of any number, in the unit of the header or in d, sqrt(g d), rho0 g d: beyond, squares and their sums would overflow
+NUMBERS = {"rotation_rpm": 1e-9, "drum_diameter_mm": 1e-9, "grain_diameter_mm": 1e-9, "density_kg_m3": 1e-9, "theta_deg": -90, "surface_depth_mm": -MOST}
 CHOICES = {"axes": ("laboratory", "surface"), "velocities": ("laboratory", "drum")}
 GRADIENT = ("dvx_dx", "dvx_dz", "dvz_dx", "dvz_dz")
 # What a column measures, and the units that it may have beside 1, Drumlin's own: one of each in SI.
@@ -38,13 +39,15 @@ def _header(path, lines):
     for line, text in lines:
         key, _, value = (part.strip() for part in text[1:].partition("="))
         place = f"{path}:{line}"
-        if key in NUMBERS:
+        if key in found:
+            problems.append((place, key, "appears twice", "once"))
+        elif key in NUMBERS:
             try:
                 found[key] = float(value)
             except ValueError:
                 found[key] = math.nan
-            if not NUMBERS[key] < found[key] < math.inf:
-                problems.append((place, key, f'"{value}" does not do', f"a number above {NUMBERS[key]:g}"))
+            if not NUMBERS[key] < found[key] < MOST:
+                problems.append((place, key, f'"{value}" does not do', f"a number above {NUMBERS[key]:g}, below {MOST:g}"))
         elif key in CHOICES:
             found[key] = value
             if value not in CHOICES[key]:
@@ -91,8 +94,15 @@ def _numbers(path, rows, columns):
                 table[i, j] = float(text) * unit if text.strip() else math.nan
             except ValueError:
                 table[i, j] = math.inf
-            if math.isinf(table[i, j]) or (name in "xz" and math.isnan(table[i, j])):
-                problems.append((f"{path}:{line}:{j + 1}", name, f'"{text}" is no number', "a finite number" + ("" if name in "xz" else ", or nothing")))
+            if abs(table[i, j]) > MOST or (name in "xz" and math.isnan(table[i, j])):
+                problems.append((f"{path}:{line}:{j + 1}", name, f'"{text}" does not do',
+                                 f"a number of at most {MOST * unit:.3g}" + ("" if name in "xz" else ", or nothing")))
+    problems += [(f"{path}:{rows[0][0]}", name, "holds no number", "a column that has some")
+                 for (name, _), values in zip(columns, table.T) if not problems and np.isnan(values).all()]
+    first = {}
+    for (line, _), place in zip(rows, np.round(table[:, [[name for name, _ in columns].index(axis) for axis in "xz"]], 6).tolist()):
+        if first.setdefault(tuple(place), line) != line and not problems:
+            problems.append((f"{path}:{line}", "x, z", f"is the point of line {first[tuple(place)]} again", "each point once"))
     if problems:
         raise refused(problems[:20])
     return table
