@@ -1,5 +1,6 @@
 #include "continuum/fem/detail/assembly.hpp"
 
+#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/full_matrix.h>
 
@@ -11,6 +12,7 @@
 #include "continuum/fem/detail/friction_wall.hpp"
 #include "continuum/fem/detail/inertia_terms.hpp"
 #include "continuum/fem/detail/point_law.hpp"
+#include "continuum/fem/detail/scalar_field.hpp"
 #include "continuum/fem/detail/spring_faces.hpp"
 
 namespace drumlin::continuum::fem {
@@ -296,7 +298,11 @@ void assemble_residual(const FlowProblem& problem, const Discretisation& d, cons
 
 void assemble_tangent(const FlowProblem& problem, const Discretisation& d, const Setting& setting,
                       const State& state, System& system) {
-  if (system.matrix.m() == 0) system.matrix.reinit(d.owned, d.owned, d.pattern, d.mesh.get_communicator());
+  if (system.matrix.m() == 0)
+    give_pattern(d, d.unknowns, system.matrix, [&](dealii::DynamicSparsityPattern& pattern) {
+      dealii::DoFTools::make_sparsity_pattern(d.unknowns, pattern, d.homogeneous,
+                                              /*keep_constrained_dofs=*/false);
+    });
   with_point_law(problem, setting.law, state.held_values(), [&](const auto& law) {
     assemble(problem, d, law, setting, state, d.homogeneous, system.residual, &system.matrix);
   });

@@ -8,12 +8,13 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
-#include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/numerics/vector_tools_boundary.h>
 
 #include <array>
 #include <map>
 #include <set>
+
+#include "continuum/fem/detail/direct_solver.hpp"
 
 namespace drumlin::continuum::fem {
 namespace {
@@ -310,14 +311,12 @@ void Discretisation::distribute_unknowns(const FlowProblem& problem) {
   const auto velocity = dealii::DoFTools::extract_dofs(unknowns, velocity_mask());
   is_velocity.assign(owned.n_elements(), false);
   for (const auto index : velocity) is_velocity[owned.index_within_set(index)] = true;
+  forget_systems();
   constrain(problem);
-  rebuild_pattern();
 }
 
-void Discretisation::rebuild_pattern() {
-  pattern.reinit(unknowns.n_dofs(), unknowns.n_dofs(), relevant);
-  dealii::DoFTools::make_sparsity_pattern(unknowns, pattern, homogeneous, /*keep_constrained_dofs=*/false);
-  dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned, mesh.get_communicator(), relevant);
+void Discretisation::forget_systems() {
+  for (auto& system : systems) system = std::make_shared<KeptSystem>();
 }
 
 void Discretisation::constrain(const FlowProblem& problem) {
@@ -343,10 +342,13 @@ void Discretisation::constrain(const FlowProblem& problem) {
       constraints.set_inhomogeneity(index, value);
       homogeneous.add_line(index);
     }
-  for (const WallNode& node : wall_nodes(problem, *this)) {
+  const auto nodes = wall_nodes(problem, *this);
+  for (const WallNode& node : nodes) {
     hold(node, true, constraints);
     hold(node, false, homogeneous);
   }
+  // What follows from what at such a wall depends on where its nodes are.
+  if (sum(static_cast<double>(nodes.size())) > 0) systems[0] = std::make_shared<KeptSystem>();
   mark_given(problem);
   constraints.close();
   homogeneous.close();

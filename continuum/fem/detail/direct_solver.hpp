@@ -33,4 +33,10 @@ class DirectSolver {
   std::unique_ptr<Petsc> petsc_;
 };
 
+/// A matrix with its factors: pattern and ordering stay from one system on a mesh to the next.
+struct KeptSystem {
+  SystemMatrix matrix;  ///< given its pattern by the first to fill it
+  DirectSolver factors;
+};
+
 }  // namespace drumlin::continuum::fem

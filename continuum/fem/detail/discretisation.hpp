@@ -8,9 +8,9 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_q_cache.h>
 #include <deal.II/lac/affine_constraints.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -25,6 +25,8 @@ namespace drumlin::continuum::fem {
 /// One number per unknown, each on the rank that owns it; copies of those on the cells around that rank's
 /// part follow with update_ghost_values().
 using FieldVector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+struct KeptSystem;
 
 /// Components of the unknowns after the two of the velocity; the last one only with a threshold of fluidity.
 constexpr unsigned int pressure_component = 2, fluidity_component = 3;
@@ -44,10 +46,10 @@ struct Discretisation {
   /// Takes over other velocities on the same sides.
   void constrain(const FlowProblem& problem);
   /// Moves cells and given velocities to this shape of the surface; unknowns keep their numbers. False, where
-  /// a cell would be turned inside out. For a solve, rebuild_pattern() has to follow: what follows from what
-  /// at a wall with friction depends on where its nodes are.
+  /// a cell would be turned inside out.
   [[nodiscard]] bool move_surface(const FlowProblem& problem, const SurfaceShape& shape);
-  void rebuild_pattern();
+  /// Begins `systems` anew, for the memory that they hold.
+  void forget_systems();
   /// Of the side with the spring, at one of its points: that of the mesh, or of the shape where the surface
   /// has moved. Quadratic sides meet at small angles, and what moves along both of them stands still: held by
   /// a stiff spring, each joint would stop the flow.
@@ -70,9 +72,12 @@ struct Discretisation {
       constraints;  ///< of the solution: hanging nodes, periodicity, given velocities
   dealii::AffineConstraints<double> homogeneous;  ///< of a Newton step: the same lines without their values
   dealii::AffineConstraints<double> conforming;   ///< hanging nodes and periodicity alone
-  dealii::DynamicSparsityPattern pattern;         ///< of the rows of this rank
   dealii::IndexSet owned, relevant;  ///< unknowns of this rank; with those of the cells around its part
   std::vector<bool> is_velocity;     ///< per unknown of this rank
+
+  /// That of the flow, and those of one number and of two that the flow carries along. Shared with those that
+  /// solve: what they begin ends with the same factors.
+  std::array<std::shared_ptr<KeptSystem>, 3> systems;
 
   /// Velocities on sides that move as they are told, in both directions or along themselves.
   dealii::IndexSet given;
