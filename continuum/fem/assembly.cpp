@@ -270,21 +270,21 @@ template <class PointLaw>
 void assemble(const FlowProblem& problem, const Discretisation& d, const PointLaw& law,
               const Setting& setting, const State& state,
               const dealii::AffineConstraints<double>& constraints, FieldVector& residual,
-              dealii::PETScWrappers::MPI::SparseMatrix* matrix, bool forces_of_walls = false) {
-  CellSystem system(problem, d, law, setting, state, matrix != nullptr, forces_of_walls);
+              KeptSystem* kept, bool forces_of_walls = false) {
+  CellSystem system(problem, d, law, setting, state, kept != nullptr, forces_of_walls);
   const CellContribution& of_cell = system.contribution;
   residual = 0;
-  if (matrix) *matrix = 0;
-  std::size_t point = 0;
+  if (kept) kept->matrix = 0;
+  std::size_t number = 0;
   for (const auto& cell : d.unknowns.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
-    system.reinit(cell, point);
-    point += d.quadrature.size();
+    system.reinit(cell, number * d.quadrature.size());
     constraints.distribute_local_to_global(of_cell.residual, of_cell.indices, residual);
-    if (matrix) constraints.distribute_local_to_global(of_cell.tangent, of_cell.indices, *matrix);
+    if (kept) kept->add(number, of_cell.indices, of_cell.tangent, constraints);
+    ++number;
   }
   residual.compress(dealii::VectorOperation::add);
-  if (matrix) matrix->compress(dealii::VectorOperation::add);
+  if (kept) kept->matrix.compress(dealii::VectorOperation::add);
 }
 
 }  // namespace
@@ -304,7 +304,7 @@ void assemble_tangent(const FlowProblem& problem, const Discretisation& d, const
                                               /*keep_constrained_dofs=*/false);
     });
   with_point_law(problem, setting.law, state.held_values(), [&](const auto& law) {
-    assemble(problem, d, law, setting, state, d.homogeneous, system.residual, &system.matrix);
+    assemble(problem, d, law, setting, state, d.homogeneous, system.residual, system.kept.get());
   });
 }
 
