@@ -269,8 +269,8 @@ class CellSystem {
 template <class PointLaw>
 void assemble(const FlowProblem& problem, const Discretisation& d, const PointLaw& law,
               const Setting& setting, const State& state,
-              const dealii::AffineConstraints<double>& constraints, FieldVector& residual,
-              KeptSystem* kept, bool forces_of_walls = false) {
+              const dealii::AffineConstraints<double>& constraints, FieldVector& residual, KeptSystem* kept,
+              bool forces_of_walls = false) {
   CellSystem system(problem, d, law, setting, state, kept != nullptr, forces_of_walls);
   const CellContribution& of_cell = system.contribution;
   residual = 0;

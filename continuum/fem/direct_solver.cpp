@@ -140,10 +140,10 @@ void KeptSystem::add(std::size_t cell, const std::vector<dealii::types::global_d
     check(MatGetRowIJ(all, 0, PETSC_FALSE, PETSC_FALSE, &rows, &start, &columns, &done), "read a matrix");
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j)
-        place[i * n + j] = static_cast<PetscInt>(
-            std::lower_bound(columns + start[unknowns[i]], columns + start[unknowns[i] + 1],
-                             static_cast<PetscInt>(unknowns[j])) -
-            columns);
+        place[i * n + j] = static_cast<PetscInt>(std::lower_bound(columns + start[unknowns[i]],
+                                                                  columns + start[unknowns[i] + 1],
+                                                                  static_cast<PetscInt>(unknowns[j])) -
+                                                 columns);
     check(MatRestoreRowIJ(all, 0, PETSC_FALSE, PETSC_FALSE, &rows, &start, &columns, &done), "read a matrix");
   }
   double* entries = nullptr;
