@@ -68,7 +68,9 @@ def content_of(drawing, frames):
                "revision": drawing["run"].get("revision", ""), "scales": scales, "period": drawing["period"],
                "view": [float(v) for v in (view.low[0], view.high[0], view.low[1], view.high[1])],
                "field": drawing["color"] or "speed", "fields": fields, "signal": overlaps.SIGNAL,
-               "number": [grains.frame["number"] for grains in frames], "time_s": [grains.frame["time_s"] for grains in frames]} | head
+               "number": [grains.frame["number"] for grains in frames], "time_s": [grains.frame["time_s"] for grains in frames],
+               "overlaps": [[[round(float(depth), 5), int(places[i]), int(places[j]) if j >= 0 else -1] for i, j, depth in zip(*grains.overlaps)]
+                            for grains, places in zip(frames, grounds.places)]} | head
     if frames[0].material is not None:
         material = np.zeros(len(grounds.ids), dtype=int)
         for grains, places in zip(frames, grounds.places):

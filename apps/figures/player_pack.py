@@ -11,8 +11,8 @@ content:
   turns, turn_bits       of each frame, cosine and sine, times 2^turn_bits, of the drum's turn since the frame before; flows: see positions
   speed                  low, step, changes: a speed is low exp(step level); level 0: low and below; spin: quantum, changes
   mean_force, force_steps  a force is sign(level) mean_force (level / force_steps)^2; angles: directions are whole numbers of 2 pi/angles
-  overlaps               of each frame, the deep ones (overlaps.py): depth in d, and the two grains by their places among all; -1: the container
   pairs, wall_contacts   of each frame, new contacts between grains and all of them; contacts with walls
+  overlaps               of each frame, the deep ones: depth in d, and the two grains by their places among all; -1: the container
   planes                 name and bytes of each; fields, field, view, period, material: colours, the first of them, the part of the plane shown,
                          a periodic domain, material of each grain
 
@@ -266,7 +266,5 @@ def packed(frames, has_spin):
     head["pairs"] = add_pairs(planes, frames, grounds, mean)
     head["wall_contacts"] = add_wall_contacts(planes, frames, grounds, mean)
     add_walls(planes, frames)
-    head["overlaps"] = [[[round(float(depth), 5), int(places[i]), int(places[j]) if j >= 0 else -1] for i, j, depth in zip(*grains.overlaps)]
-                        for grains, places in zip(frames, grounds.places)]
     head["planes"], stream = planes.whole()
     return head, stream, grounds
