@@ -183,9 +183,6 @@ class CellSystem {
         state_(state),
         with_tangent_(with_tangent),
         forces_of_walls_(forces_of_walls),
-        fe_(d.mapping, d.elements, d.quadrature,
-            dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
-                dealii::update_quadrature_points),
         face_(d.mapping, d.elements, d.side_quadrature,
               dealii::update_values | dealii::update_JxW_values | dealii::update_normal_vectors |
                   dealii::update_quadrature_points),
@@ -199,15 +196,15 @@ class CellSystem {
 
   /// Fills in the contribution of a cell of this rank, whose quadrature points are counted from `point` on.
   void reinit(const CellOfUnknowns& cell, std::size_t point) {
-    fe_.reinit(cell);
-    shapes_.reinit(fe_);
+    points_ = &d_.points[point];
+    shapes_.reinit(points_);
     cell->get_dof_indices(contribution.indices);
     cell->get_dof_values(state_.solution, local_);
     if (before_.size() > 0) cell->get_dof_values(*setting_.inertia->before, before_);
     contribution.residual = 0;
     contribution.tangent = 0;
     if (with_tangent_) by_velocity_ = {};
-    for (const unsigned int q : fe_.quadrature_point_indices()) add_point(q, point + q);
+    for (unsigned int q = 0; q < d_.quadrature.size(); ++q) add_point(q, point + q);
     if (with_tangent_) take_over_velocities();
     for (const unsigned int f : cell->face_indices())
       if (cell->face(f)->at_boundary()) add_face(cell, f);
@@ -227,20 +224,20 @@ class CellSystem {
 
   void add_point(unsigned int q, std::size_t point) {
     VelocityTangent* by_velocity = with_tangent_ ? &by_velocity_ : nullptr;
+    const dealii::Point<2>& place = points_[q].place;
+    const double JxW = points_[q].JxW;
     const PointValues at = point_values(shapes_, q, local_);
     const auto response = law_(setting_.regularisation, at, state_.dual[point], point);
-    Vec2 force = body_force(problem_, state_.theta, fe_.quadrature_point(q));
+    Vec2 force = body_force(problem_, state_.theta, place);
     if (setting_.inertia)
-      add_inertia(problem_, *setting_.inertia, shapes_, q, fe_.quadrature_point(q), fe_.JxW(q), at.motion,
-                  before_, force, by_velocity);
-    add_point_residual(shapes_, q, at, response.stress, force, fe_.JxW(q), contribution.residual);
-    if (with_tangent_)
-      add_point_tangent(shapes_, q, response, fe_.JxW(q), by_velocity_, contribution.tangent);
+      add_inertia(problem_, *setting_.inertia, shapes_, q, place, JxW, at.motion, before_, force,
+                  by_velocity);
+    add_point_residual(shapes_, q, at, response.stress, force, JxW, contribution.residual);
+    if (with_tangent_) add_point_tangent(shapes_, q, response, JxW, by_velocity_, contribution.tangent);
     if constexpr (requires { response.balance; }) {
       const double amplitude = problem_.threshold_fluidity->amplitude;
-      add_fluidity_residual(shapes_, q, at, amplitude, response.balance, fe_.JxW(q), contribution.residual);
-      if (with_tangent_)
-        add_fluidity_tangent(shapes_, q, at, amplitude, response, fe_.JxW(q), contribution.tangent);
+      add_fluidity_residual(shapes_, q, at, amplitude, response.balance, JxW, contribution.residual);
+      if (with_tangent_) add_fluidity_tangent(shapes_, q, at, amplitude, response, JxW, contribution.tangent);
     }
   }
 
@@ -259,7 +256,7 @@ class CellSystem {
   const State& state_;
   bool with_tangent_;
   bool forces_of_walls_;
-  FEValues<2> fe_;
+  const CellPoint* points_ = nullptr;  // of this cell
   dealii::FEFaceValues<2> face_;
   CellShapes shapes_;
   VelocityTangent by_velocity_;  // of this cell

@@ -267,23 +267,28 @@ void Discretisation::place_cells() {
         undisturbed_[cell->id()].push_back(mapping.transform_unit_to_real_cell(cell, unit));
   }
   mapping.initialize(mesh, [&](const dealii::Triangulation<2>::cell_iterator& cell) {
-    std::vector<dealii::Point<2>> points = undisturbed_.at(cell->id());
-    for (auto& x : points) {
+    std::vector<dealii::Point<2>> places = undisturbed_.at(cell->id());
+    for (auto& x : places) {
       const Vec2 to = displaced(*surface, {x[0], x[1]});
       x = {to.x, to.z};
     }
-    return points;
+    return places;
   });
 }
 
-bool Discretisation::cells_are_valid() const {
-  dealii::FEValues<2> fe(mapping, elements, quadrature, dealii::update_jacobians);
+bool Discretisation::measure_cells() {
+  dealii::FEValues<2> fe(mapping, elements, quadrature,
+                         dealii::update_inverse_jacobians | dealii::update_jacobians |
+                             dealii::update_JxW_values | dealii::update_quadrature_points);
+  points.clear();
   bool valid = true;
   for (const auto& cell : unknowns.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
     fe.reinit(cell);
-    for (const unsigned int q : fe.quadrature_point_indices())
+    for (const unsigned int q : fe.quadrature_point_indices()) {
       valid = valid && fe.jacobian(q).determinant() > 0;
+      points.push_back({fe.quadrature_point(q), fe.inverse_jacobian(q), fe.JxW(q)});
+    }
   }
   return sum(valid ? 0 : 1) == 0;
 }
@@ -291,7 +296,7 @@ bool Discretisation::cells_are_valid() const {
 bool Discretisation::move_surface(const FlowProblem& problem, const SurfaceShape& shape) {
   surface = shape;
   place_cells();
-  if (!cells_are_valid()) return false;
+  if (!measure_cells()) return false;
   constrain(problem);
   return true;
 }
@@ -306,6 +311,7 @@ dealii::Tensor<1, 2> Discretisation::surface_normal(const dealii::Point<2>& poin
 void Discretisation::distribute_unknowns(const FlowProblem& problem) {
   place_cells();
   unknowns.distribute_dofs(elements);
+  measure_cells();
   owned = unknowns.locally_owned_dofs();
   dealii::DoFTools::extract_locally_relevant_dofs(unknowns, relevant);
   const auto velocity = dealii::DoFTools::extract_dofs(unknowns, velocity_mask());

@@ -1,6 +1,7 @@
 #pragma once
 // Mesh, elements (Q2-Q1, and Q1 for a fluidity with a threshold), constraints: what assembly, solver and
 // evaluation share. Private to fem/.
+#include <deal.II/base/derivative_form.h>
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/tria.h>
@@ -31,6 +32,13 @@ struct KeptSystem;
 /// Components of the unknowns after the two of the velocity; the last one only with a threshold of fluidity.
 constexpr unsigned int pressure_component = 2, fluidity_component = 3;
 inline bool moves(unsigned int component) { return component < pressure_component; }
+
+/// A quadrature point in a cell.
+struct CellPoint {
+  dealii::Point<2> place;
+  dealii::DerivativeForm<1, 2, 2> inverse_jacobian;  ///< [in the reference cell][in the cell]
+  double JxW = 0;
+};
 
 /// One mesh level of a problem, cut into parts among the ranks of MPI_COMM_WORLD by p4est. The triangulation
 /// is refined in place; everything else is rebuilt with it. All member functions are collective.
@@ -74,6 +82,7 @@ struct Discretisation {
   dealii::AffineConstraints<double> conforming;   ///< hanging nodes and periodicity alone
   dealii::IndexSet owned, relevant;  ///< unknowns of this rank; with those of the cells around its part
   std::vector<bool> is_velocity;     ///< per unknown of this rank
+  std::vector<CellPoint> points;     ///< of this rank's cells, one after the other
 
   /// That of the flow, and those of one number and of two that the flow carries along. Shared with those that
   /// solve: what they begin ends with the same factors.
@@ -89,7 +98,7 @@ struct Discretisation {
   void execute_refinement(const FlowProblem& problem, FieldVector& solution);
   void mark_given(const FlowProblem& problem);
   void place_cells();
-  bool cells_are_valid() const;
+  bool measure_cells();  ///< the `points`; whether no cell is turned inside out
 
   /// Support points of the mapping of this mesh, once its surface has moved.
   std::map<dealii::CellId, std::vector<dealii::Point<2>>> undisturbed_;
