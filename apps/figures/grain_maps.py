@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib.animation import PillowWriter
 
 import grain_colours
+import overlaps
 import style
 import whole_file
 from result_files import number_of
@@ -72,6 +73,11 @@ class Grains:
         self.period = period
         if period is not None:
             self.x = period[0] + np.mod(self.x - period[0], period[1] - period[0])
+        container = (*center, self.container_radius) if self.container_radius > 0 else None
+        self.overlaps = overlaps.deep_overlaps(self.x, self.z, self.radius, self.period, self.cell, self.offset or 0.0, container)
+
+    def overlap_words(self):
+        return overlaps.words_of(self.overlaps[2])
 
     def touching(self):
         """Indices of the grains that carry a force."""
@@ -170,20 +176,25 @@ class View:
         return figure, axes
 
     @staticmethod
-    def set_title(figure, drawing, what, frame, outside=0, empty=False):
+    def set_title(figure, drawing, what, frame, outside=0, empty=False, deep=""):
         what += f" ({outside} grains outside of the picture)" if outside else ": no grains" if empty else ""
         state = "" if drawing["status"] == "finished" else f" (run {style.plain(drawing['status'])})"
-        figure.suptitle(style.title_of(f"{style.plain(drawing['title'])}\n{what}, t = {frame['time_s']:.2f} s{state}",
+        figure.suptitle(style.title_of(f"{style.plain(drawing['title'])}\n{what}, t = {frame['time_s']:.2f} s{state}{deep}",
                                        drawing["reduced"]), fontsize=13)
 
     def set_title_of(self, figure, drawing, what, grains):
-        """With the number of grains that the picture does not hold, unless a window was asked for."""
-        self.set_title(figure, drawing, what, grains.frame, self.outside(grains) if drawing["window"] is None else 0, not len(grains.x))
+        """With the number of grains that the picture does not hold, unless a window was asked for, and with what overlaps."""
+        self.set_title(figure, drawing, what, grains.frame, self.outside(grains) if drawing["window"] is None else 0, not len(grains.x),
+                       f"\n{grains.overlap_words()}" if len(grains.overlaps[2]) else "")
 
-    def add_walls(self, axes, grains):
-        """Walls, and the borders of a periodic domain. Returns what was drawn, to be taken away before the next frame."""
+    def add_marks(self, axes, grains):
+        """Grains that overlap deeply, walls, and the borders of a periodic domain. Returns what was drawn, to be taken away before
+        the next frame."""
         frame, period = grains.frame, grains.period
-        artists = []
+        i, j, _ = grains.overlaps
+        deep = np.unique(np.concatenate([i, j[j >= 0]]))
+        artists = [style.discs(axes, grains.x[deep], grains.z[deep], grains.radius[deep], facecolors=overlaps.SIGNAL, edgecolors=WALL,
+                               linewidths=0.3)]
         for wall in frame["walls"]:
             if wall["shape"] == "container":
                 artists.append(axes.add_patch(matplotlib.patches.Circle((wall["x"], wall["z"]), wall["radius"],
@@ -238,9 +249,9 @@ def draw_colours(drawing, view, grains, colour):
     view.set_title_of(figure, drawing, colour.words, grains)
     discs = view.add_grains(axes, grains, cmap=colour.cmap, norm=colour.norm, edgecolors=colour.edges)
     discs.set_array(colour.of(grains))
-    walls = view.add_walls(axes, grains)
+    marks = view.add_marks(axes, grains)
     colour.add_scale(figure, axes, discs)
-    return figure, axes, discs, walls
+    return figure, axes, discs, marks
 
 
 def draw_still(drawing, view, grains, colour, path):
@@ -251,7 +262,8 @@ def draw_still(drawing, view, grains, colour, path):
 def draw_chains(drawing, view, grains, path):
     figure, axes = view.axes(drawing, "force chains", grains.frame)
     view.add_grains(axes, grains, facecolors="0.93", edgecolors="0.8")
-    view.add_walls(axes, grains)
+    view.set_title_of(figure, drawing, "force chains", grains)
+    view.add_marks(axes, grains)
     lines, force, wall = grains.chains()
     points = min(MEAN_WIDTH * view.inches * 72, MOST_POINTS)
     mean = np.abs(force).mean() if len(force) else math.nan
@@ -278,7 +290,7 @@ def draw_snapshot(drawing, folder):
     """Returns {file: what it shows}: the colour that was asked for, else speed and spin; and force chains."""
     grains = Grains(drawing["snapshot"], drawing["period"])
     view = View([grains], drawing["window"])
-    number = f"snapshot {drawing['snapshot']['number']}"
+    number = f"snapshot {drawing['snapshot']['number']}; {grains.overlap_words()}"
     plt.rcParams.update({"savefig.dpi": DPI, "savefig.bbox": "tight"})
     names = [drawing["color"]] if drawing["color"] else ["speed"] + ([] if grains.spin is None or not len(grains.x) else ["spin"])
     figures = {}
@@ -314,7 +326,7 @@ def draw_animation(drawing, folder):
     """Returns {file: what it shows}. The same view and colours in all frames."""
     snapshots, view, colour = series(drawing)
     plt.rcParams.update({"savefig.bbox": None})  # all frames of one size
-    figure, axes, discs, walls = draw_colours(drawing, view, snapshots[0], colour)
+    figure, axes, discs, marks = draw_colours(drawing, view, snapshots[0], colour)
     discs.remove()
     writer = PillowWriter(fps=12)
     with whole_file.aside(folder / "animation.gif") as stream, writer.saving(figure, stream, dpi=80):
@@ -322,9 +334,9 @@ def draw_animation(drawing, folder):
             # Anew for each frame: grains may come and go.
             discs = view.add_grains(axes, grains, cmap=colour.cmap, norm=colour.norm, edgecolors=colour.edges)
             discs.set_array(colour.of(grains))
-            for artist in walls:
+            for artist in marks:
                 artist.remove()
-            walls = view.add_walls(axes, grains)
+            marks = view.add_marks(axes, grains)
             view.set_title_of(figure, drawing, colour.words, grains)
             writer.grab_frame()
             discs.remove()

@@ -9,6 +9,7 @@ import numpy as np
 
 import grain_colours
 import grain_maps
+import overlaps
 import player_pack
 import whole_file
 
@@ -66,8 +67,10 @@ def content_of(drawing, frames):
     content = {"format": "drumlin-player-1", "title": drawing["title"], "reduced": drawing["reduced"], "status": drawing["status"],
                "revision": drawing["run"].get("revision", ""), "scales": scales, "period": drawing["period"],
                "view": [float(v) for v in (view.low[0], view.high[0], view.low[1], view.high[1])],
-               "field": drawing["color"] or "speed", "fields": fields,
-               "number": [grains.frame["number"] for grains in frames], "time_s": [grains.frame["time_s"] for grains in frames]} | head
+               "field": drawing["color"] or "speed", "fields": fields, "signal": overlaps.SIGNAL,
+               "number": [grains.frame["number"] for grains in frames], "time_s": [grains.frame["time_s"] for grains in frames],
+               "overlaps": [[[round(float(depth), 5), int(places[i]), int(places[j]) if j >= 0 else -1] for i, j, depth in zip(*grains.overlaps)]
+                            for grains, places in zip(frames, grounds.places)]} | head
     if frames[0].material is not None:
         material = np.zeros(len(grounds.ids), dtype=int)
         for grains, places in zip(frames, grounds.places):

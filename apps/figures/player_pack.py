@@ -12,6 +12,7 @@ content:
   speed                  low, step, changes: a speed is low exp(step level); level 0: low and below; spin: quantum, changes
   mean_force, force_steps  a force is sign(level) mean_force (level / force_steps)^2; angles: directions are whole numbers of 2 pi/angles
   pairs, wall_contacts   of each frame, new contacts between grains and all of them; contacts with walls
+  overlaps               of each frame, the deep ones: depth in d, and the two grains by their places among all; -1: the container
   planes                 name and bytes of each; fields, field, view, period, material: colours, the first of them, the part of the plane shown,
                          a periodic domain, material of each grain
 

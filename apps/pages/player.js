@@ -52,9 +52,10 @@ function goTo(frame) {
 }
 
 function tellTime() {
-  const { number, time_s } = run.content, f = shown.frame;
+  const { number, time_s, overlaps } = run.content, f = shown.frame, deep = overlaps[f].map(([depth]) => depth);
+  const told = deep.length ? `, deep overlaps: ${deep.length}, up to ${shortNumber(Math.max(...deep))} d` : "";
   $("scrub").value = f;
-  $("clock").innerHTML = `t = ${time_s[f].toFixed(timeDigits())} s <small>frame ${f + 1} of ${number.length}, snapshot ${number[f]}</small>`;
+  $("clock").innerHTML = `t = ${time_s[f].toFixed(timeDigits())} s <small>frame ${f + 1} of ${number.length}, snapshot ${number[f]}${told}</small>`;
 }
 
 function timeDigits() {

@@ -1,5 +1,6 @@
 #include "continuum/fem/detail/assembly.hpp"
 
+#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/full_matrix.h>
 
@@ -11,6 +12,7 @@
 #include "continuum/fem/detail/friction_wall.hpp"
 #include "continuum/fem/detail/inertia_terms.hpp"
 #include "continuum/fem/detail/point_law.hpp"
+#include "continuum/fem/detail/scalar_field.hpp"
 #include "continuum/fem/detail/spring_faces.hpp"
 
 namespace drumlin::continuum::fem {
@@ -181,9 +183,6 @@ class CellSystem {
         state_(state),
         with_tangent_(with_tangent),
         forces_of_walls_(forces_of_walls),
-        fe_(d.mapping, d.elements, d.quadrature,
-            dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
-                dealii::update_quadrature_points),
         face_(d.mapping, d.elements, d.side_quadrature,
               dealii::update_values | dealii::update_JxW_values | dealii::update_normal_vectors |
                   dealii::update_quadrature_points),
@@ -197,15 +196,15 @@ class CellSystem {
 
   /// Fills in the contribution of a cell of this rank, whose quadrature points are counted from `point` on.
   void reinit(const CellOfUnknowns& cell, std::size_t point) {
-    fe_.reinit(cell);
-    shapes_.reinit(fe_);
+    points_ = &d_.points[point];
+    shapes_.reinit(points_);
     cell->get_dof_indices(contribution.indices);
     cell->get_dof_values(state_.solution, local_);
     if (before_.size() > 0) cell->get_dof_values(*setting_.inertia->before, before_);
     contribution.residual = 0;
     contribution.tangent = 0;
     if (with_tangent_) by_velocity_ = {};
-    for (const unsigned int q : fe_.quadrature_point_indices()) add_point(q, point + q);
+    for (unsigned int q = 0; q < d_.quadrature.size(); ++q) add_point(q, point + q);
     if (with_tangent_) take_over_velocities();
     for (const unsigned int f : cell->face_indices())
       if (cell->face(f)->at_boundary()) add_face(cell, f);
@@ -225,20 +224,20 @@ class CellSystem {
 
   void add_point(unsigned int q, std::size_t point) {
     VelocityTangent* by_velocity = with_tangent_ ? &by_velocity_ : nullptr;
+    const dealii::Point<2>& place = points_[q].place;
+    const double JxW = points_[q].JxW;
     const PointValues at = point_values(shapes_, q, local_);
     const auto response = law_(setting_.regularisation, at, state_.dual[point], point);
-    Vec2 force = body_force(problem_, state_.theta, fe_.quadrature_point(q));
+    Vec2 force = body_force(problem_, state_.theta, place);
     if (setting_.inertia)
-      add_inertia(problem_, *setting_.inertia, shapes_, q, fe_.quadrature_point(q), fe_.JxW(q), at.motion,
-                  before_, force, by_velocity);
-    add_point_residual(shapes_, q, at, response.stress, force, fe_.JxW(q), contribution.residual);
-    if (with_tangent_)
-      add_point_tangent(shapes_, q, response, fe_.JxW(q), by_velocity_, contribution.tangent);
+      add_inertia(problem_, *setting_.inertia, shapes_, q, place, JxW, at.motion, before_, force,
+                  by_velocity);
+    add_point_residual(shapes_, q, at, response.stress, force, JxW, contribution.residual);
+    if (with_tangent_) add_point_tangent(shapes_, q, response, JxW, by_velocity_, contribution.tangent);
     if constexpr (requires { response.balance; }) {
       const double amplitude = problem_.threshold_fluidity->amplitude;
-      add_fluidity_residual(shapes_, q, at, amplitude, response.balance, fe_.JxW(q), contribution.residual);
-      if (with_tangent_)
-        add_fluidity_tangent(shapes_, q, at, amplitude, response, fe_.JxW(q), contribution.tangent);
+      add_fluidity_residual(shapes_, q, at, amplitude, response.balance, JxW, contribution.residual);
+      if (with_tangent_) add_fluidity_tangent(shapes_, q, at, amplitude, response, JxW, contribution.tangent);
     }
   }
 
@@ -257,7 +256,7 @@ class CellSystem {
   const State& state_;
   bool with_tangent_;
   bool forces_of_walls_;
-  FEValues<2> fe_;
+  const CellPoint* points_ = nullptr;  // of this cell
   dealii::FEFaceValues<2> face_;
   CellShapes shapes_;
   VelocityTangent by_velocity_;  // of this cell
@@ -267,22 +266,22 @@ class CellSystem {
 template <class PointLaw>
 void assemble(const FlowProblem& problem, const Discretisation& d, const PointLaw& law,
               const Setting& setting, const State& state,
-              const dealii::AffineConstraints<double>& constraints, FieldVector& residual,
-              dealii::PETScWrappers::MPI::SparseMatrix* matrix, bool forces_of_walls = false) {
-  CellSystem system(problem, d, law, setting, state, matrix != nullptr, forces_of_walls);
+              const dealii::AffineConstraints<double>& constraints, FieldVector& residual, KeptSystem* kept,
+              bool forces_of_walls = false) {
+  CellSystem system(problem, d, law, setting, state, kept != nullptr, forces_of_walls);
   const CellContribution& of_cell = system.contribution;
   residual = 0;
-  if (matrix) *matrix = 0;
-  std::size_t point = 0;
+  if (kept) kept->matrix = 0;
+  std::size_t number = 0;
   for (const auto& cell : d.unknowns.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
-    system.reinit(cell, point);
-    point += d.quadrature.size();
+    system.reinit(cell, number * d.quadrature.size());
     constraints.distribute_local_to_global(of_cell.residual, of_cell.indices, residual);
-    if (matrix) constraints.distribute_local_to_global(of_cell.tangent, of_cell.indices, *matrix);
+    if (kept) kept->add(number, of_cell.indices, of_cell.tangent, constraints);
+    ++number;
   }
   residual.compress(dealii::VectorOperation::add);
-  if (matrix) matrix->compress(dealii::VectorOperation::add);
+  if (kept) kept->matrix.compress(dealii::VectorOperation::add);
 }
 
 }  // namespace
@@ -296,9 +295,13 @@ void assemble_residual(const FlowProblem& problem, const Discretisation& d, cons
 
 void assemble_tangent(const FlowProblem& problem, const Discretisation& d, const Setting& setting,
                       const State& state, System& system) {
-  if (system.matrix.m() == 0) system.matrix.reinit(d.owned, d.owned, d.pattern, d.mesh.get_communicator());
+  if (system.matrix.m() == 0)
+    give_pattern(d, d.unknowns, system.matrix, [&](dealii::DynamicSparsityPattern& pattern) {
+      dealii::DoFTools::make_sparsity_pattern(d.unknowns, pattern, d.homogeneous,
+                                              /*keep_constrained_dofs=*/false);
+    });
   with_point_law(problem, setting.law, state.held_values(), [&](const auto& law) {
-    assemble(problem, d, law, setting, state, d.homogeneous, system.residual, &system.matrix);
+    assemble(problem, d, law, setting, state, d.homogeneous, system.residual, system.kept.get());
   });
 }
 

@@ -64,6 +64,7 @@ class Assembler {
         solution_(solution),
         field_(field),
         sources_(sources),
+        kept_(*d.systems[sources.target.size()]),
         component_(components_of(*field.element)),
         indices_(field.element->n_dofs_per_cell()),
         upwind_(indices_.size()),
@@ -77,9 +78,10 @@ class Assembler {
         part_(d.mapping, *field.element, d.side_quadrature, side_flags),
         part_u_(d.mapping, d.elements, d.side_quadrature, u_flags),
         other_part_(d.mapping, *field.element, d.side_quadrature, dealii::update_values) {
-    couple_across_faces(d, field, matrix);
-    rhs = field.values;
-    rhs = 0;
+    if (kept_.matrix.m() == 0) couple_across_faces(d, field, kept_.matrix);
+    kept_.matrix = 0;
+    rhs_ = field.values;
+    rhs_ = 0;
   }
 
   void add_cells() {
@@ -90,12 +92,15 @@ class Assembler {
       for (const unsigned int f : cell->face_indices()) add_side(cell, f, mean_target);
       first += d_.quadrature.size();
     }
-    matrix.compress(dealii::VectorOperation::add);
-    rhs.compress(dealii::VectorOperation::add);
+    kept_.matrix.compress(dealii::VectorOperation::add);
+    rhs_.compress(dealii::VectorOperation::add);
   }
 
-  SystemMatrix matrix;
-  FieldVector rhs;
+  /// The true relative residual.
+  double solve(FieldVector& values) {
+    kept_.factors.factorise(kept_.matrix);
+    return kept_.factors.solve(rhs_, values);
+  }
 
  private:
   static std::vector<unsigned int> components_of(const dealii::FiniteElement<2>& element) {
@@ -132,8 +137,8 @@ class Assembler {
       for (std::size_t c = 0; c < mean.size(); ++c) mean[c] += sources_.target[c][first + q] * fe_.JxW(q);
       area += fe_.JxW(q);
     }
-    matrix.add(indices_, local);
-    rhs.add(indices_, local_rhs);
+    kept_.matrix.add(indices_, local);
+    rhs_.add(indices_, local_rhs);
     for (double& value : mean) value /= area;
     return mean;
   }
@@ -196,8 +201,8 @@ class Assembler {
         }
     });
     neighbor->get_dof_indices(upwind_);
-    matrix.add(indices_, from_own);
-    matrix.add(indices_, upwind_, from_upwind);
+    kept_.matrix.add(indices_, from_own);
+    kept_.matrix.add(indices_, upwind_, from_upwind);
   }
 
   void add_entry(const dealii::FEFaceValuesBase<2>& side, const dealii::FEFaceValuesBase<2>& side_u,
@@ -213,8 +218,8 @@ class Assembler {
             from_own(i, j) += flux * side.shape_value(i, q) * side.shape_value(j, q);
       }
     });
-    matrix.add(indices_, from_own);
-    rhs.add(indices_, from_outside);
+    kept_.matrix.add(indices_, from_own);
+    rhs_.add(indices_, from_outside);
   }
 
   const FlowProblem& problem_;
@@ -222,6 +227,8 @@ class Assembler {
   const FieldVector& solution_;
   const ScalarField& field_;
   const Sources& sources_;
+  KeptSystem& kept_;
+  FieldVector rhs_;
   std::vector<unsigned int> component_;
   Indices indices_, upwind_;
   dealii::FEValues<2> fe_, fe_u_;
@@ -325,9 +332,7 @@ double solve_transport(const FlowProblem& problem, const Discretisation& d, cons
                        const Sources& sources, double linear_tolerance, ScalarField& field) {
   Assembler system(problem, d, solution, field, sources);
   system.add_cells();
-  DirectSolver factors;
-  factors.factorise(system.matrix);
-  const double residual = factors.solve(system.rhs, field.values);
+  const double residual = system.solve(field.values);
   if (!(residual <= linear_tolerance))
     throw NotConvergedError(
         fmt::format("what the material carries: true relative residual {:.2e} of the "

@@ -1,6 +1,7 @@
 #include "continuum/fem/detail/direct_solver.hpp"
 
 #include <petscksp.h>
+#include <petscmat.h>
 
 #include <algorithm>
 #include <limits>
@@ -116,6 +117,40 @@ double DirectSolver::solve(const FieldVector& rhs, FieldVector& solution, double
   p.dissected.forsake();
   p.factorise_whole();
   return p.solve(rhs, solution, enough);
+}
+
+void KeptSystem::add(std::size_t cell, const std::vector<dealii::types::global_dof_index>& unknowns,
+                     const dealii::FullMatrix<double>& held,
+                     const dealii::AffineConstraints<double>& constraints) {
+  if (matrix.local_size() < matrix.m() ||
+      std::any_of(unknowns.begin(), unknowns.end(), [&](auto i) { return constraints.is_constrained(i); })) {
+    constraints.distribute_local_to_global(held, unknowns, matrix);
+    return;
+  }
+  const std::size_t n = unknowns.size(), first = cell * n * n;
+  Mat all = nullptr;  // the block of this rank
+  check(MatMPIAIJGetSeqAIJ(matrix.petsc_matrix(), &all, nullptr, nullptr), "read a matrix");
+  constexpr PetscInt unknown = -1;
+  if (places.size() < first + n * n) places.resize(first + n * n, unknown);
+  PetscInt* place = &places[first];
+  if (*place == unknown) {
+    PetscInt rows = 0;
+    const PetscInt *start = nullptr, *columns = nullptr;
+    PetscBool done = PETSC_FALSE;
+    check(MatGetRowIJ(all, 0, PETSC_FALSE, PETSC_FALSE, &rows, &start, &columns, &done), "read a matrix");
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        place[i * n + j] = static_cast<PetscInt>(std::lower_bound(columns + start[unknowns[i]],
+                                                                  columns + start[unknowns[i] + 1],
+                                                                  static_cast<PetscInt>(unknowns[j])) -
+                                                 columns);
+    check(MatRestoreRowIJ(all, 0, PETSC_FALSE, PETSC_FALSE, &rows, &start, &columns, &done), "read a matrix");
+  }
+  double* entries = nullptr;
+  check(MatSeqAIJGetArray(all, &entries), "fill a matrix");
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) entries[*place++] += held(i, j);
+  check(MatSeqAIJRestoreArray(all, &entries), "fill a matrix");
 }
 
 }  // namespace drumlin::continuum::fem

@@ -8,12 +8,13 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
-#include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/numerics/vector_tools_boundary.h>
 
 #include <array>
 #include <map>
 #include <set>
+
+#include "continuum/fem/detail/direct_solver.hpp"
 
 namespace drumlin::continuum::fem {
 namespace {
@@ -266,23 +267,28 @@ void Discretisation::place_cells() {
         undisturbed_[cell->id()].push_back(mapping.transform_unit_to_real_cell(cell, unit));
   }
   mapping.initialize(mesh, [&](const dealii::Triangulation<2>::cell_iterator& cell) {
-    std::vector<dealii::Point<2>> points = undisturbed_.at(cell->id());
-    for (auto& x : points) {
+    std::vector<dealii::Point<2>> places = undisturbed_.at(cell->id());
+    for (auto& x : places) {
       const Vec2 to = displaced(*surface, {x[0], x[1]});
       x = {to.x, to.z};
     }
-    return points;
+    return places;
   });
 }
 
-bool Discretisation::cells_are_valid() const {
-  dealii::FEValues<2> fe(mapping, elements, quadrature, dealii::update_jacobians);
+bool Discretisation::measure_cells() {
+  dealii::FEValues<2> fe(mapping, elements, quadrature,
+                         dealii::update_inverse_jacobians | dealii::update_jacobians |
+                             dealii::update_JxW_values | dealii::update_quadrature_points);
+  points.clear();
   bool valid = true;
   for (const auto& cell : unknowns.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
     fe.reinit(cell);
-    for (const unsigned int q : fe.quadrature_point_indices())
+    for (const unsigned int q : fe.quadrature_point_indices()) {
       valid = valid && fe.jacobian(q).determinant() > 0;
+      points.push_back({fe.quadrature_point(q), fe.inverse_jacobian(q), fe.JxW(q)});
+    }
   }
   return sum(valid ? 0 : 1) == 0;
 }
@@ -290,7 +296,7 @@ bool Discretisation::cells_are_valid() const {
 bool Discretisation::move_surface(const FlowProblem& problem, const SurfaceShape& shape) {
   surface = shape;
   place_cells();
-  if (!cells_are_valid()) return false;
+  if (!measure_cells()) return false;
   constrain(problem);
   return true;
 }
@@ -305,19 +311,18 @@ dealii::Tensor<1, 2> Discretisation::surface_normal(const dealii::Point<2>& poin
 void Discretisation::distribute_unknowns(const FlowProblem& problem) {
   place_cells();
   unknowns.distribute_dofs(elements);
+  measure_cells();
   owned = unknowns.locally_owned_dofs();
   dealii::DoFTools::extract_locally_relevant_dofs(unknowns, relevant);
   const auto velocity = dealii::DoFTools::extract_dofs(unknowns, velocity_mask());
   is_velocity.assign(owned.n_elements(), false);
   for (const auto index : velocity) is_velocity[owned.index_within_set(index)] = true;
+  forget_systems();
   constrain(problem);
-  rebuild_pattern();
 }
 
-void Discretisation::rebuild_pattern() {
-  pattern.reinit(unknowns.n_dofs(), unknowns.n_dofs(), relevant);
-  dealii::DoFTools::make_sparsity_pattern(unknowns, pattern, homogeneous, /*keep_constrained_dofs=*/false);
-  dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned, mesh.get_communicator(), relevant);
+void Discretisation::forget_systems() {
+  for (auto& system : systems) system = std::make_shared<KeptSystem>();
 }
 
 void Discretisation::constrain(const FlowProblem& problem) {
@@ -343,10 +348,13 @@ void Discretisation::constrain(const FlowProblem& problem) {
       constraints.set_inhomogeneity(index, value);
       homogeneous.add_line(index);
     }
-  for (const WallNode& node : wall_nodes(problem, *this)) {
+  const auto nodes = wall_nodes(problem, *this);
+  for (const WallNode& node : nodes) {
     hold(node, true, constraints);
     hold(node, false, homogeneous);
   }
+  // What follows from what at such a wall depends on where its nodes are.
+  if (sum(static_cast<double>(nodes.size())) > 0) systems[0] = std::make_shared<KeptSystem>();
   mark_given(problem);
   constraints.close();
   homogeneous.close();

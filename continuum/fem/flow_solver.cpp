@@ -242,6 +242,7 @@ class Continuation {
 
   FlowSolution finished(bool converged) {
     report_.converged = converged;
+    discretisation().forget_systems();
     report_.seconds = now() - begun_;
     for (std::size_t i = 0; i < fem::work_names.size(); ++i)
       report_.phases.push_back(

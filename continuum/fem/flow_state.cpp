@@ -69,7 +69,6 @@ void scale_surface(SolvedLevel& level, double factor) {
   for (double& c : scaled.coefficient) c *= factor;
   if (!d.move_surface(level.problem, scaled) && !d.move_surface(level.problem, kept))
     throw std::logic_error("cells that were valid are no more");
-  d.rebuild_pattern();
 }
 
 }  // namespace

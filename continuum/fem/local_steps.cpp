@@ -217,13 +217,10 @@ double Patch::slope() const {
 
 // From a state that is still where the step begins.
 void Patch::advance_dual(double alpha, State& state) const {
-  dealii::FEValues<2> fe(d_.mapping, d_.elements, d_.quadrature,
-                         dealii::update_values | dealii::update_gradients);
   CellShapes shapes(d_);
   dealii::Vector<double> local(shapes.n), change(shapes.n);
   for (const OwnCell& at : cells_) {
-    fe.reinit(at.cell);
-    shapes.reinit(fe);
+    shapes.reinit(&d_.points[at.number * d_.quadrature.size()]);
     at.cell->get_dof_values(state.solution, local);
     at.cell->get_dof_values(step_, change);
     change *= alpha;

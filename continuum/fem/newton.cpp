@@ -111,21 +111,20 @@ double Newton::slope(const Phase& phase, const State& state, const Step& step, d
   return product(system_.residual, step.solution);
 }
 
-// From a state whose residual is assembled: the tangent, at a state that may have moved where few unknowns
-// held most of the residual. A state with a larger residual of all unknowns is not taken.
+// From a state whose residual is assembled to one whose is, that may have moved where few unknowns held most
+// of it. A state with a larger residual of all unknowns is not taken.
 void Newton::settle_locally(const Phase& phase, State& state) {
   const auto assemble = [&] {
-    clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
+    clock_(Work::assembly, [&] { assemble_residual(problem_, d_, phase.setting, state, system_); });
   };
   const double before = relative_residual();
-  std::optional<State> settled_state;
-  if (before > phase.tolerance)
-    settled_state = clock_(Work::local_steps, [&] {
-      return locally_settled(problem_, d_, phase.setting, state, system_.residual);
-    });
-  if (settled_state) std::swap(state, *settled_state);
-  assemble();
+  if (before <= phase.tolerance) return;
+  std::optional<State> settled_state = clock_(Work::local_steps, [&] {
+    return locally_settled(problem_, d_, phase.setting, state, system_.residual);
+  });
   if (!settled_state) return;
+  std::swap(state, *settled_state);
+  assemble();
   if (!(relative_residual() <= before)) {
     std::swap(state, *settled_state);
     assemble();
@@ -170,12 +169,14 @@ bool Newton::take(const Phase& phase, const Step& step, State& state, IterationR
   line.step_size = taken.l2_norm() / state.solution.l2_norm();
   const bool is_small =
       product(taken, taken) < small_step * small_step * product(state.solution, state.solution);
+  bool is_last = false;  // no step follows that would need a tangent
   if (phase.locally && is_small && !fluidity_) {
     if (!length.asked_last) assemble_residual(problem_, d_, phase.setting, state, system_);
     settle_locally(phase, state);
-  } else {
-    clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
+    is_last = relative_residual() <= phase.tolerance;
   }
+  if (!is_last)
+    clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
   line.residual = relative_residual();
   line.step_length = alpha;
   line.linear_residual = step.linear_residual;
@@ -219,13 +220,11 @@ bool Newton::iterate(const Phase& phase, State& state) {
     reference_ = weight_norm_;
   else
     reference_ = std::max(1e-300, nodal_forces(problem_, d_, phase.setting, state).l2_norm());
-  clock_(Work::assembly, [&] {
-    if (settles_first)
-      assemble_residual(problem_, d_, phase.setting, state, system_);
-    else
-      assemble_tangent(problem_, d_, phase.setting, state, system_);
-  });
-  if (settles_first) settle_locally(phase, state);
+  if (settles_first) {
+    clock_(Work::assembly, [&] { assemble_residual(problem_, d_, phase.setting, state, system_); });
+    settle_locally(phase, state);
+  }
+  clock_(Work::assembly, [&] { assemble_tangent(problem_, d_, phase.setting, state, system_); });
   int short_steps = 0;
   double least = INFINITY;
   for (line.iteration = 1; line.iteration <= options_.max_iterations; ++line.iteration) {

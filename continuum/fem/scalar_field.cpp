@@ -12,17 +12,16 @@ dealii::IndexSet relevant_to(const dealii::DoFHandler<2>& places) {
   return relevant;
 }
 
-template <class FillPattern>
-void reinit_matrix(const Discretisation& d, const ScalarField& field, const FillPattern& fill,
-                   SystemMatrix& matrix) {
-  const dealii::IndexSet owned = field.places.locally_owned_dofs(), relevant = relevant_to(field.places);
+}  // namespace
+
+void give_pattern(const Discretisation& d, const dealii::DoFHandler<2>& places, SystemMatrix& matrix,
+                  const std::function<void(dealii::DynamicSparsityPattern&)>& fill) {
+  const dealii::IndexSet owned = places.locally_owned_dofs(), relevant = relevant_to(places);
   dealii::DynamicSparsityPattern pattern(owned.size(), owned.size(), relevant);
   fill(pattern);
   dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned, d.mesh.get_communicator(), relevant);
   matrix.reinit(owned, owned, pattern, d.mesh.get_communicator());
 }
-
-}  // namespace
 
 ScalarField::ScalarField(const Discretisation& d, const dealii::FiniteElement<2>& kind)
     : element(kind.clone()), places(d.mesh) {
@@ -42,22 +41,15 @@ dealii::AffineConstraints<double> conforming_lines(const FlowProblem& problem, c
 
 void couple_in_cells(const Discretisation& d, const ScalarField& field,
                      const dealii::AffineConstraints<double>& lines, SystemMatrix& matrix) {
-  reinit_matrix(
-      d, field,
-      [&](dealii::DynamicSparsityPattern& pattern) {
-        dealii::DoFTools::make_sparsity_pattern(field.places, pattern, lines,
-                                                /*keep_constrained_dofs=*/false);
-      },
-      matrix);
+  give_pattern(d, field.places, matrix, [&](dealii::DynamicSparsityPattern& pattern) {
+    dealii::DoFTools::make_sparsity_pattern(field.places, pattern, lines, /*keep_constrained_dofs=*/false);
+  });
 }
 
 void couple_across_faces(const Discretisation& d, const ScalarField& field, SystemMatrix& matrix) {
-  reinit_matrix(
-      d, field,
-      [&](dealii::DynamicSparsityPattern& pattern) {
-        dealii::DoFTools::make_flux_sparsity_pattern(field.places, pattern);
-      },
-      matrix);
+  give_pattern(d, field.places, matrix, [&](dealii::DynamicSparsityPattern& pattern) {
+    dealii::DoFTools::make_flux_sparsity_pattern(field.places, pattern);
+  });
 }
 
 std::vector<double> values_at(const ScalarField& field, const MeshCell& cell,

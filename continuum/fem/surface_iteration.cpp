@@ -60,7 +60,6 @@ bool solve_moved(const SurfaceSolver& solver, SolvedLevel& level, const SurfaceS
                  const std::vector<double>& step, const SurfaceResponse& response, Settling settling) {
   auto& d = *level.discretisation;
   if (!d.move_surface(level.problem, shape)) return false;
-  d.rebuild_pattern();
   if (size_of(step) < 0.5 * largest_step)
     for (std::size_t k = 0; k < step.size(); ++k) {
       level.state.solution.add(step[k], response.of_flow[k]);
@@ -160,7 +159,6 @@ class Iteration {
     }
     level_.state = before;
     put_back(shape);
-    level_.discretisation->rebuild_pattern();
     return false;
   }
 

@@ -264,6 +264,7 @@ def words_of_figures(figures):
     """Labels tell places apart; a wall without a place is not drawn."""
     sys.path.insert(0, str(figures))
     import grain_maps  # noqa: E402
+    import overlaps  # noqa: E402
     import style  # noqa: E402
     require(style.place_labels([-3.2, 1.21, 1.24]) == ["-3.20", "+1.21", "+1.24"], style.place_labels([-3.2, 1.21, 1.24]))
     require(style.place_labels([-13.6, 0.0, 13.6]) == ["-14", "+0", "+14"], style.place_labels([-13.6, 0.0, 13.6]))
@@ -271,6 +272,16 @@ def words_of_figures(figures):
     placed = {"shape": "segment", "x": [0.0, 1.0], "z": [0.0, 0.0], "angle": 0.0}
     for wall in (placed | {"x": [None, 1.0]}, placed | {"z": [0.0, math.inf]}, {"shape": "disc", "x": 0.0, "z": None, "radius": 1.0}):
         require(grain_maps.has_place(placed) and not grain_maps.has_place(wall), f"{wall}")
+    # Overlaps of 0.002 d, or 0.0005 d, of a large and a small disc; across a seam; in a sheared cell; with the container.
+    big, cell = 1.5, ((0.0, 0.0), (10.0, 8.0))
+    for x, z, other, expected in (((1, 2.998), (3, 3), {}, [0.002]), ((1, 2.9995), (3, 3), {}, []),
+                                  ((0.5, 8.502), (3, 3), {"period": (0, 10)}, [0.002]), ((0.5, 8.502), (3, 3), {}, []),
+                                  ((1, 4), (8, 1.998), {"period": (0, 10), "cell": cell, "offset": 7.0}, [0.002]),
+                                  ((1, 4), (8, 1.998), {"period": (0, 10), "cell": cell, "offset": 0.0}, []),
+                                  ((-3.502, 4), (0, 0), {"container": (0, 0, 5)}, [0.002]), ((), (), {}, [])):
+        i, j, depth = overlaps.deep_overlaps(numpy.array(x), numpy.array(z), numpy.array([big, 0.5])[:len(x)], **other)
+        require(len(depth) == len(expected) and numpy.allclose(depth, expected, atol=1e-9), f"{x}, {z}, {other}: {i}, {j}, {depth}")
+    require(overlaps.words_of(numpy.array([0.002, 0.0061])) == "2 overlaps beyond 0.001 d, the deepest 0.0061 d", "words of overlaps")
 
 
 def stretches(drumlin, folder):

@@ -102,6 +102,15 @@ def require_same(player, k, file):
         else:
             require(abs(math.log(speed / grain["speed"])) <= 0.5001 * content["speed"]["step"], f"{file}: speed of {i}: {speed}, {grain['speed']}")
 
+    if cell is None:
+        x, z, radius = (found[name].astype(float) for name in ("x", "z", "radius"))
+        apart = x[:, None] - x
+        apart -= length * numpy.round(apart / length) if length > 0 else 0
+        deep = numpy.triu(radius[:, None] + radius - numpy.hypot(apart, z[:, None] - z), 1)
+        told = {tuple(sorted((player.id[a], player.id[b]))): depth for depth, a, b in content["overlaps"][k] if b >= 0}
+        expected = {tuple(sorted((ids[i], ids[j]))): deep[i, j] for i, j in zip(*numpy.nonzero(deep > 1e-3))}
+        require(told.keys() == expected.keys() and all(abs(told[pair] - expected[pair]) < 1e-5 for pair in told), f"{file}: {told}, not {expected}")
+
     def level(value):
         return math.sqrt(abs(value) / content["mean_force"]) * content["force_steps"]
 

@@ -1,12 +1,11 @@
 #pragma once
 // Residual and tangent of the discrete problem. Private to fem/.
 #include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/petsc_sparse_matrix.h>
 
 #include <functional>
 #include <span>
 
-#include "continuum/fem/detail/discretisation.hpp"
+#include "continuum/fem/detail/direct_solver.hpp"
 #include "continuum/fem/detail/held_fields.hpp"
 
 namespace drumlin::continuum::fem {
@@ -57,11 +56,12 @@ struct Setting {
   std::optional<InertiaSetting> inertia;  ///< absent: no such term
 };
 
-/// The matrix is given its pattern by the first assemble_tangent.
+/// A residual, and the matrix and the factors that are kept for the flow: those of the last tangent.
 struct System {
-  explicit System(const Discretisation& d) : residual(d.field()) {}
-  FieldVector residual;                             ///< zero in constrained rows
-  dealii::PETScWrappers::MPI::SparseMatrix matrix;  ///< filled by assemble_tangent alone
+  explicit System(const Discretisation& d) : residual(d.field()), kept(d.systems[0]) {}
+  FieldVector residual;  ///< zero in constrained rows
+  std::shared_ptr<KeptSystem> kept;
+  SystemMatrix& matrix = kept->matrix;  ///< filled by assemble_tangent alone
 };
 
 void assemble_residual(const FlowProblem&, const Discretisation&, const Setting&, const State&, System&);

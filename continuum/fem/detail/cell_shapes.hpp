@@ -1,6 +1,7 @@
 #pragma once
 // Shape functions of a cell in the form that its integrals use. Private to fem/.
-#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/fe.h>
+#include <deal.II/lac/vector.h>
 
 #include <array>
 #include <vector>
@@ -36,7 +37,8 @@ struct CellShapes {
       : n(d.elements.n_dofs_per_cell()),
         component(n),
         has_fluidity(d.has_fluidity()),
-        points(d.quadrature.size()) {
+        points(d.quadrature.size()),
+        reference_(points.size()) {
     for (unsigned int i = 0; i < n; ++i) {
       const auto [c, of_element] = d.elements.system_to_component_index(i);
       component[i] = c;
@@ -47,24 +49,46 @@ struct CellShapes {
       else
         fluidity[of_element] = i;
     }
-  }
-  void reinit(const dealii::FEValues<2>& fe) {
-    for (const unsigned int q : fe.quadrature_point_indices()) {
-      Point& at = points[q];
+    const auto &quadratic = d.elements.base_element(0), &linear = d.elements.base_element(1);
+    for (std::size_t q = 0; q < points.size(); ++q) {
+      const auto& unit = d.quadrature.point(q);
       for (unsigned int a = 0; a < nodes; ++a) {
-        at.value[a] = fe.shape_value(velocity[0][a], q);
-        const auto& g = fe.shape_grad(velocity[0][a], q);
-        at.x[a] = g[0];
-        at.z[a] = g[1];
+        const auto slope = quadratic.shape_grad(a, unit);
+        points[q].value[a] = quadratic.shape_value(a, unit);
+        reference_[q].velocity[a] = {slope[0], slope[1]};
       }
-      for (unsigned int b = 0; b < corners; ++b) at.linear[b] = fe.shape_value(pressure[b], q);
-      if (has_fluidity)
-        for (unsigned int b = 0; b < corners; ++b) {
-          const auto& g = fe.shape_grad(fluidity[b], q);
-          at.slope[b] = {g[0], g[1]};
-        }
+      for (unsigned int b = 0; b < corners; ++b) {
+        const auto slope = linear.shape_grad(b, unit);
+        points[q].linear[b] = linear.shape_value(b, unit);
+        reference_[q].fluidity[b] = {slope[0], slope[1]};
+      }
     }
   }
+  /// Of the cell whose first quadrature point is this one of Discretisation::points.
+  void reinit(const CellPoint* at) {
+    const auto turned = [](const CellPoint& to, const std::array<double, 2>& slope, unsigned int d) {
+      return slope[0] * to.inverse_jacobian[0][d] + slope[1] * to.inverse_jacobian[1][d];
+    };
+    for (std::size_t q = 0; q < points.size(); ++q) {
+      Point& here = points[q];
+      for (unsigned int a = 0; a < nodes; ++a) {
+        here.x[a] = turned(at[q], reference_[q].velocity[a], 0);
+        here.z[a] = turned(at[q], reference_[q].velocity[a], 1);
+      }
+      if (has_fluidity)
+        for (unsigned int b = 0; b < corners; ++b)
+          here.slope[b] = {turned(at[q], reference_[q].fluidity[b], 0),
+                           turned(at[q], reference_[q].fluidity[b], 1)};
+    }
+  }
+
+ private:
+  /// Slopes in the reference cell.
+  struct Slopes {
+    std::array<std::array<double, 2>, nodes> velocity;
+    std::array<std::array<double, 2>, corners> fluidity;
+  };
+  std::vector<Slopes> reference_;
 };
 
 /// What velocities do to the forces on velocities: [component][function of the velocity][component of the
@@ -137,14 +161,11 @@ inline void advance_dual(const CellShapes& s, const Regularisation& r, const dea
 /// point.
 template <class Visit>
 void for_each_cell(const Discretisation& d, Visit visit) {
-  dealii::FEValues<2> fe(d.mapping, d.elements, d.quadrature,
-                         dealii::update_values | dealii::update_gradients);
   CellShapes shapes(d);
   std::size_t point = 0;
   for (const auto& cell : d.unknowns.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
-    fe.reinit(cell);
-    shapes.reinit(fe);
+    shapes.reinit(&d.points[point]);
     visit(shapes, cell, point);
     point += d.quadrature.size();
   }

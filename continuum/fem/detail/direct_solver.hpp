@@ -1,8 +1,10 @@
 #pragma once
 // MUMPS through PETSc, on any number of ranks, with the true residual of every solve. Private to fem/.
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/petsc_sparse_matrix.h>
 
 #include <memory>
+#include <vector>
 
 #include "continuum/fem/detail/discretisation.hpp"
 
@@ -31,6 +33,18 @@ class DirectSolver {
  private:
   struct Petsc;
   std::unique_ptr<Petsc> petsc_;
+};
+
+/// A matrix with its factors: pattern, ordering and where cells add to it stay from one system on a mesh to
+/// the next.
+struct KeptSystem {
+  SystemMatrix matrix;  ///< given its pattern by the first to fill it
+  DirectSolver factors;
+  std::vector<PetscInt> places;  ///< of what add() has added, among the entries of the matrix; on one rank
+
+  /// Adds what the cell of this number holds.
+  void add(std::size_t cell, const std::vector<dealii::types::global_dof_index>& unknowns,
+           const dealii::FullMatrix<double>& held, const dealii::AffineConstraints<double>& constraints);
 };
 
 }  // namespace drumlin::continuum::fem

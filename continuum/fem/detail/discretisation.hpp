@@ -1,6 +1,7 @@
 #pragma once
 // Mesh, elements (Q2-Q1, and Q1 for a fluidity with a threshold), constraints: what assembly, solver and
 // evaluation share. Private to fem/.
+#include <deal.II/base/derivative_form.h>
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/tria.h>
@@ -8,9 +9,9 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_q_cache.h>
 #include <deal.II/lac/affine_constraints.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -26,9 +27,18 @@ namespace drumlin::continuum::fem {
 /// part follow with update_ghost_values().
 using FieldVector = dealii::LinearAlgebra::distributed::Vector<double>;
 
+struct KeptSystem;
+
 /// Components of the unknowns after the two of the velocity; the last one only with a threshold of fluidity.
 constexpr unsigned int pressure_component = 2, fluidity_component = 3;
 inline bool moves(unsigned int component) { return component < pressure_component; }
+
+/// A quadrature point in a cell.
+struct CellPoint {
+  dealii::Point<2> place;
+  dealii::DerivativeForm<1, 2, 2> inverse_jacobian;  ///< [in the reference cell][in the cell]
+  double JxW = 0;
+};
 
 /// One mesh level of a problem, cut into parts among the ranks of MPI_COMM_WORLD by p4est. The triangulation
 /// is refined in place; everything else is rebuilt with it. All member functions are collective.
@@ -44,10 +54,10 @@ struct Discretisation {
   /// Takes over other velocities on the same sides.
   void constrain(const FlowProblem& problem);
   /// Moves cells and given velocities to this shape of the surface; unknowns keep their numbers. False, where
-  /// a cell would be turned inside out. For a solve, rebuild_pattern() has to follow: what follows from what
-  /// at a wall with friction depends on where its nodes are.
+  /// a cell would be turned inside out.
   [[nodiscard]] bool move_surface(const FlowProblem& problem, const SurfaceShape& shape);
-  void rebuild_pattern();
+  /// Begins `systems` anew, for the memory that they hold.
+  void forget_systems();
   /// Of the side with the spring, at one of its points: that of the mesh, or of the shape where the surface
   /// has moved. Quadratic sides meet at small angles, and what moves along both of them stands still: held by
   /// a stiff spring, each joint would stop the flow.
@@ -70,9 +80,13 @@ struct Discretisation {
       constraints;  ///< of the solution: hanging nodes, periodicity, given velocities
   dealii::AffineConstraints<double> homogeneous;  ///< of a Newton step: the same lines without their values
   dealii::AffineConstraints<double> conforming;   ///< hanging nodes and periodicity alone
-  dealii::DynamicSparsityPattern pattern;         ///< of the rows of this rank
   dealii::IndexSet owned, relevant;  ///< unknowns of this rank; with those of the cells around its part
   std::vector<bool> is_velocity;     ///< per unknown of this rank
+  std::vector<CellPoint> points;     ///< of this rank's cells, one after the other
+
+  /// That of the flow, and those of one number and of two that the flow carries along. Shared with those that
+  /// solve: what they begin ends with the same factors.
+  std::array<std::shared_ptr<KeptSystem>, 3> systems;
 
   /// Velocities on sides that move as they are told, in both directions or along themselves.
   dealii::IndexSet given;
@@ -84,7 +98,7 @@ struct Discretisation {
   void execute_refinement(const FlowProblem& problem, FieldVector& solution);
   void mark_given(const FlowProblem& problem);
   void place_cells();
-  bool cells_are_valid() const;
+  bool measure_cells();  ///< the `points`; whether no cell is turned inside out
 
   /// Support points of the mapping of this mesh, once its surface has moved.
   std::map<dealii::CellId, std::vector<dealii::Point<2>>> undisturbed_;

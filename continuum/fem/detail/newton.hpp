@@ -88,7 +88,7 @@ class Newton {
   const FlowObserver& observer_;
   FieldVector moment_;
   System system_;
-  DirectSolver factors_;
+  DirectSolver& factors_ = system_.kept->factors;
   std::optional<FieldVector> response_;  // of the flow to the slope, with these factors
   double response_error_ = 0;            // true relative residual of its solve
   double frame_moment_ = 0;              // of the velocity that the unknown lacks in a rotating frame

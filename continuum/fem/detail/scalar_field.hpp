@@ -2,7 +2,9 @@
 // A scalar field on the mesh of a flow, beside velocity and pressure: what an effect computes from the flow
 // between two runs of Newton's method. Private to fem/.
 #include <deal.II/fe/fe.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -33,10 +35,13 @@ struct ScalarField {
 /// Hanging nodes and periodicity of a continuous field, closed.
 dealii::AffineConstraints<double> conforming_lines(const FlowProblem& problem, const ScalarField& field);
 
-/// An empty matrix of a continuous field: each unknown couples with those of its cells, `lines` aside.
+/// An empty matrix among the unknowns of `places`, coupled as `fill` says of those that this rank looks at.
+void give_pattern(const Discretisation& d, const dealii::DoFHandler<2>& places, SystemMatrix& matrix,
+                  const std::function<void(dealii::DynamicSparsityPattern&)>& fill);
+/// Of a continuous field: each unknown couples with those of its cells, `lines` aside.
 void couple_in_cells(const Discretisation&, const ScalarField&,
                      const dealii::AffineConstraints<double>& lines, SystemMatrix&);
-/// An empty matrix of a discontinuous field: with those of its cell and of the cells beside it.
+/// Of a discontinuous field: with those of its cell and of the cells beside it.
 void couple_across_faces(const Discretisation&, const ScalarField&, SystemMatrix&);
 
 /// At points of one cell of this rank, given by their places in the reference cell.
