@@ -137,7 +137,7 @@ void describe(Visitor& v, FlowOutput& o) {
           when_given("d", above(0, 1e4),
                      "Of a drum's profiles; absent: 20, at most a quarter of the chord. Elsewhere refused."));
   v.value("layer_thickness", o.layer_thickness, defaulted("d", at_least(1e-3, 100), "Thickness."));
-  v.value("map_spacing", o.map_spacing, defaulted("d", above(0, 100), "Of maps.h5."));
+  v.value("map_spacing", o.map_spacing, defaulted("d", at_least(1e-3, 100), "Of maps.h5."));
   v.value("figures", o.figures, defaulted("", anything(), "Draws figures."));
 }
 template <class Visitor>

@@ -98,6 +98,10 @@ KeyReader::KeyReader(const Document& document, std::vector<InputProblem>& proble
 
 void KeyReader::finish() {
   leave();
+  double largest = 0;
+  for (const auto& [length, problem] : lengths_) largest = std::max(largest, length);
+  for (const auto& [length, problem] : lengths_)
+    if (length < least_share_of_length * largest) problems_.push_back(problem);
   if (wrong_format_) problems_ = {*wrong_format_};
   sort_by_place(problems_);
 }
@@ -236,6 +240,11 @@ void KeyReader::assign(const Node& node, const std::string& key, double& target,
   if (!spec.allowed.holds(number))
     return report(node, key, fmt::format("is {}", number), wish("number", spec));
   target = number;
+  if ((spec.unit == "mm" || spec.unit == "m") && spec.allowed.min > 0)
+    lengths_.emplace_back(
+        number * (spec.unit == "mm" ? 1e-3 : 1),
+        problem_of(document_, node, path_of(key), fmt::format("is {}", number),
+                   fmt::format("at least {:g} of the largest length", least_share_of_length)));
 }
 
 void KeyReader::assign(const Node& node, const std::string& key, std::string& target, const KeySpec& spec) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coupling/common/errors.hpp"
@@ -133,6 +134,7 @@ class KeyReader {
   const Document& document_;
   std::vector<InputProblem>& problems_;
   std::optional<InputProblem> wrong_format_;
+  std::vector<std::pair<double, InputProblem>> lengths_;  // in m; what to report of one far below the largest
   std::vector<Level> levels_;
 };
 

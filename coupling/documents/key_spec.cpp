@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 namespace drumlin {
 
@@ -25,6 +26,22 @@ std::string choices_text(const Allowed& allowed) {
   std::string text;
   for (const auto& word : allowed.choices) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", word);
   return text;
+}
+
+/// What is above 0 in a unit of nature is at least this: squares and quotients of it stay finite.
+double least_in(const std::string& unit) {
+  static const std::map<std::string, double> least = {
+      {"mm", 1e-9},   {"m", 1e-12},   {"s", 1e-12},    {"mm/s", 1e-12}, {"kg", 1e-18},  {"kg/m", 1e-15},
+      {"Pa", 1e-9},   {"N/m2", 1e-9}, {"1/s", 1e-12},  {"Hz", 1e-12},   {"rpm", 1e-12}, {"turns", 1e-12},
+      {"m/s2", 1e-9}, {"d", 1e-9},    {"kg/m3", 1e-6}, {"deg", 1e-9}};
+  const auto found = least.find(unit);
+  return found == least.end() ? 0 : found->second;
+}
+
+KeySpec spec_of(Need need, std::string unit, Allowed allowed, std::string sentence) {
+  const double least = least_in(unit);
+  if (allowed.min == 0 && allowed.min_open && least > 0) allowed.min = least, allowed.min_open = false;
+  return {need, std::move(unit), std::move(allowed), std::move(sentence)};
 }
 
 }  // namespace
@@ -74,15 +91,15 @@ Allowed one_of(std::vector<std::string> words) {
 }
 
 KeySpec required(std::string unit, Allowed allowed, std::string sentence) {
-  return {Need::required, std::move(unit), std::move(allowed), std::move(sentence)};
+  return spec_of(Need::required, std::move(unit), std::move(allowed), std::move(sentence));
 }
 
 KeySpec defaulted(std::string unit, Allowed allowed, std::string sentence) {
-  return {Need::defaulted, std::move(unit), std::move(allowed), std::move(sentence)};
+  return spec_of(Need::defaulted, std::move(unit), std::move(allowed), std::move(sentence));
 }
 
 KeySpec when_given(std::string unit, Allowed allowed, std::string sentence) {
-  return {Need::optional, std::move(unit), std::move(allowed), std::move(sentence)};
+  return spec_of(Need::optional, std::move(unit), std::move(allowed), std::move(sentence));
 }
 
 }  // namespace drumlin

@@ -48,6 +48,9 @@ struct KeySpec {
   Allowed allowed;
   std::string sentence;
 };
+/// Of the largest length in a file: none is smaller.
+constexpr double least_share_of_length = 1e-9;
+/// What is above 0 in a unit of nature has a least value, too.
 KeySpec required(std::string unit, Allowed allowed, std::string sentence);
 KeySpec defaulted(std::string unit, Allowed allowed, std::string sentence);
 /// For std::optional members: absent stays absent.

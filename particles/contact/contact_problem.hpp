@@ -21,6 +21,7 @@ struct ContactProblem {
   std::vector<double> q;
   std::vector<double> mu;  ///< the coefficients of the law, dim - 1 per contact
   double time_step = 1;    ///< turns -u_n into a predicted penetration
+  double rounding = 0;     ///< a velocity far above what rounding leaves in q, far below those of grains
 
   int contacts() const { return static_cast<int>(q.size()) / dim; }
   contact_law::Coefficients<double, dim> coefficients(int a) const {

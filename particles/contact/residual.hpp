@@ -157,9 +157,19 @@ ResidualSums residual_sums_of(const Problem& problem, std::span<const double> r,
   });
 }
 
+/// Sum of the squares of the entries of q, or of as many entries of its rounding: what residuals refer to.
+template <class Problem>
+double squared_reference(const Problem& problem, TeamLoops& loops) {
+  const double squares = loops.sum(problem.q.size(), [&](std::size_t begin, std::size_t end) {
+    return squared_norm(std::span(problem.q).subspan(begin, end - begin));
+  });
+  return std::max(squares, problem.rounding * problem.rounding * static_cast<double>(problem.q.size()));
+}
+
 /// Residual of impulses r (dim * contacts entries); `velocities` receives those that they cause. A problem
-/// without contacts, or with r exact, has residual 0; if every entry of q is zero, or one infinite, and r
-/// does not solve it, infinity. The result does not depend on the team of the loops.
+/// without contacts, or with r exact, has residual 0; if every entry of q is zero, and its rounding too, or
+/// one infinite, and r does not solve it, infinity. Where no contact closes faster than its rounding, none
+/// sinks. The result does not depend on the team of the loops.
 template <class Problem>
 ContactResidual residual_of(const Problem& problem, std::span<const double> r,
                             Velocities<typename Problem::Delassus>& velocities, TeamLoops& loops) {
@@ -167,10 +177,7 @@ ContactResidual residual_of(const Problem& problem, std::span<const double> r,
   ContactResidual residual;
   const ResidualSums sums = residual_sums_of(problem, r, velocities, loops);
   if (count == 0) return residual;
-  const double q_squares = loops.sum(problem.q.size(), [&](std::size_t begin, std::size_t end) {
-    return squared_norm(std::span(problem.q).subspan(begin, end - begin));
-  });
-  const double scale = std::sqrt(q_squares / static_cast<double>(problem.q.size()));
+  const double scale = std::sqrt(squared_reference(problem, loops) / static_cast<double>(problem.q.size()));
   const auto relative = [scale](double e) {
     if (e == 0) return 0.0;
     return scale != 0 && !std::isinf(scale) ? e / scale : e * std::numeric_limits<double>::infinity();
@@ -178,7 +185,7 @@ ContactResidual residual_of(const Problem& problem, std::span<const double> r,
   residual.rms = relative(std::sqrt(sums.squares / count));
   residual.max = relative(std::sqrt(sums.largest));
   residual.penetration = -sums.lowest_u_n * problem.time_step;
-  if (sums.complementarity_violation == 0) return residual;
+  if (sums.complementarity_violation == 0 || sums.lowest_u_n >= -problem.rounding) return residual;
   double carried = summed_impulses(velocities.bodies, loops);
   if constexpr (of_discs<Problem>) carried += problem.W.driven_impulses(velocities.bodies);
   residual.sinking = problem.time_step * sums.complementarity_violation / carried;

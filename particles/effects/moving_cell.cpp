@@ -29,6 +29,11 @@ double inverse_inertia(const CellLaw& law, double mass, double length) {
 
 }  // namespace
 
+double energy_of_drift(const Bodies& bodies) {
+  const Whole all = whole_of(bodies);
+  return all.mass * (all.velocity.x * all.velocity.x + all.velocity.z * all.velocity.z) / 2;
+}
+
 Period period_of(const CellState& cell) {
   return {cell.middle_x - cell.length_x / 2,
           cell.length_x,
@@ -114,6 +119,18 @@ void change_rates_in_step(Point change, double h, CellState& cell, Bodies& bodie
   change_rates(cell.rate_x + change.x, cell.rate_z + change.z, cell.shear, cell, bodies);
   for (std::size_t b = 0; b < bodies.count(); ++b)
     bodies.x[b] += h * bodies.v_x[b], bodies.z[b] += h * bodies.v_z[b];
+}
+
+void follow_images(const CellState& before, const CellState& cell, Bodies& bodies) {
+  const Period period = period_of(cell);
+  const double d_x = cell.length_x - before.length_x, d_z = cell.length_z - before.length_z;
+  const double d_offset = period.nearest(cell.offset - before.offset);
+  for (std::size_t b = 0; b < bodies.count(); ++b) {
+    const double up = (bodies.z[b] - cell.middle_z) / cell.length_z;
+    const double right = (bodies.x[b] - cell.middle_x - cell.offset * up) / cell.length_x;
+    const Point change = period.image_velocity({d_x * right + d_offset * up, d_z * up});
+    bodies.v_x[b] += change.x, bodies.v_z[b] += change.z;
+  }
 }
 
 void stretch_cell(Point strain, CellState& cell, Bodies& bodies) {

@@ -88,6 +88,11 @@ void change_rates(double rate_x, double rate_z, double shear, CellState&, Bodies
 void change_rates_in_step(Point change, double time_step, CellState&, Bodies&);
 /// Moves lengths and offset by a step.
 void move_cell(double time_step, CellState&);
+/// Changes velocities once the lengths of a step are new: an image then moves faster by A times the change of
+/// its displacement, and so does every grain by that of its own, whichever image of it stands in the cell.
+void follow_images(const CellState& before, const CellState&, Bodies&);
+/// Kinetic energy of the grains as one body: a cell without walls may drift.
+double energy_of_drift(const Bodies&);
 /// Stretches lengths, with the positions of the grains, by shares of themselves.
 void stretch_cell(Point strain, CellState&, Bodies&);
 /// Brings grains back into the cell, with positions and velocities of the images; returns what was added to

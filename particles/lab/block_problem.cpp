@@ -75,7 +75,7 @@ BlockProblem with_friction(const Problem& problem) {
   blocks.W = assembled(problem.W);
   blocks.q = problem.q;
   blocks.mu = problem.mu;
-  blocks.time_step = problem.time_step;
+  blocks.time_step = problem.time_step, blocks.rounding = problem.rounding;
   return blocks;
 }
 
@@ -89,7 +89,7 @@ BlockProblem block_problem(const FrictionlessProblem& problem) {
   blocks.W = assembled(problem.W);
   blocks.q = block_layout<FrictionlessProblem>(problem.q);
   blocks.mu.assign(problem.contacts(), 0.0);
-  blocks.time_step = problem.time_step;
+  blocks.time_step = problem.time_step, blocks.rounding = problem.rounding;
   return blocks;
 }
 

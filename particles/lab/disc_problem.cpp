@@ -164,7 +164,7 @@ std::optional<CoulombSpinProblem> disc_problem(const BlockProblem& blocks) {
   CoulombSpinProblem problem;
   problem.q = blocks.q;
   problem.mu = blocks.mu;
-  problem.time_step = blocks.time_step;
+  problem.time_step = blocks.time_step, problem.rounding = blocks.rounding;
   std::vector<int> body(disc.size(), -1);
   std::vector<std::array<int, 2>> ends(rows->size());
   for (int a = 0; a < blocks.contacts(); ++a) {

@@ -1,5 +1,7 @@
 #include "particles/scene/grain_list.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +12,7 @@
 #include "coupling/common/errors.hpp"
 #include "coupling/common/files/input_file.hpp"
 #include "coupling/documents/csv.hpp"
+#include "coupling/documents/key_spec.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -89,6 +92,13 @@ std::vector<ListedGrain> listed(const ListedGrains& list) {
   }
   if (grains.empty() && problems.empty())
     problems.push_back({name, 0, 0, "grains.listed.file", "lists no grains", ""});
+  const auto [least, largest] =
+      std::minmax_element(grains.begin(), grains.end(),
+                          [](const auto& a, const auto& b) { return a.diameter_mm < b.diameter_mm; });
+  if (problems.empty() && least->diameter_mm < least_share_of_length * largest->diameter_mm)
+    problems.push_back(
+        {name, 0, 0, "diameter_mm", fmt::format("is {:g}", least->diameter_mm),
+         fmt::format("at least {:g} of the largest, {:g}", least_share_of_length, largest->diameter_mm)});
   if (!problems.empty()) throw InputError(problems);
   return grains;
 }

@@ -210,8 +210,8 @@ void check_steps(const Scene& scene, std::size_t s, Faults& faults) {
   // The step is so adjusted that whole steps fill the stage, and a prolonged stage names the adjusted one.
   const double window = scene.output.velocity_window_s / stage.time_step_s,
                adjusted = scene.output.velocity_window_s / (length / steps);
-  if (std::abs(window - std::round(window)) > 1e-6 &&
-      std::abs(adjusted - std::round(adjusted)) > most_adjusted * adjusted)
+  const auto off = [](double n) { return std::abs(n - (n > 0 ? std::max(1.0, std::round(n)) : 0)); };
+  if (off(window) > 1e-6 && off(adjusted) > most_adjusted * adjusted)
     faults.push_back({"output.velocity_window_s",
                       fmt::format("is {:.6g} steps of stage \"{}\"", window, stage.name),
                       fmt::format("a whole number of its steps of {} s", stage.time_step_s),

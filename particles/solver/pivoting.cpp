@@ -249,8 +249,9 @@ SolveReport settle_clusters(const Problem& problem, const StoppingRule& rule, So
   constexpr double gain = 0.9;  // of the residual, for which another round pays
   StoppingTest test(rule);
   Neighbourhood near(problem);
-  const double allowed =
-      rule.tolerance * rule.tolerance * squared_norm(problem.q) / static_cast<double>(problem.q.size());
+  TeamLoops alone;
+  const double allowed = rule.tolerance * rule.tolerance * squared_reference(problem, alone) /
+                         static_cast<double>(problem.q.size());
   int solved = 0;
   double before = std::numeric_limits<double>::infinity();
   while (!test.ends(solved, residual_of(problem, solution)) && test.report().residual.rms < gain * before) {

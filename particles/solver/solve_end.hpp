@@ -26,7 +26,7 @@ struct SweptBlocks {
 class SolveEnd {
  public:
   struct Kind {
-    double time_step = 1;
+    double time_step = 1, rounding = 0;
     double residual_scale = 1;  ///< turns squares of an estimate into the square of the relative residual
     SweepExtrapolation how = SweepExtrapolation::none;
     bool single = false;          ///< sweeps are in single precision
@@ -75,7 +75,9 @@ bool SolveEnd::ends(const Blocks& blocks, int sweeps, double steps, bool finite,
   threshold_ = steps * fall * fall;
   LimitRatios ratios = limit_ratios(sums, estimate, kind_.time_step, rule_);
   if (kind_.limits_sinking && (progress_.exact() || !progress_.surely_missed(ratios)))
-    ratios.sinking = sinking_of(sums, blocks.summed_impulses(), kind_.time_step, rule_);
+    ratios.sinking = sums.lowest_u_n >= -kind_.rounding
+                         ? 0
+                         : sinking_of(sums, blocks.summed_impulses(), kind_.time_step, rule_);
   progress_.record(ratios, sweeps);
   // Rounding of single precision hides the progress, or momentum keeps steep contacts swinging.
   constexpr int patience = 200, patience_of_steep = 100;  // sweeps

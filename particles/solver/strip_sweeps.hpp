@@ -113,9 +113,7 @@ double pack_in_strips(const Problem& problem, SolverWorkspace<Problem>& work, St
   const bool planned = !problem.W.plan.empty();
   if (!planned) own.plan = sweep_plan(problem.W.fixed(), problem.W.i, problem.W.j, own.order);
   strips.pack(problem, planned ? problem.W.plan : own.plan, own.order, solution.impulses, loops, work.world);
-  const double q_squares = loops.sum(problem.q.size(), [&](std::size_t begin, std::size_t end) {
-    return squared_norm(std::span(problem.q).subspan(begin, end - begin));
-  });
+  const double q_squares = squared_reference(problem, loops);
   return q_squares > 0 ? Problem::dim / q_squares : 1;  // rms over contacts, relative to the rms of q
 }
 
@@ -155,7 +153,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   const WorkMemory::Frame frame(work.memory);
   strips.use(work.memory);
   SolveEnd::Kind kind;
-  kind.time_step = problem.time_step;
+  kind.time_step = problem.time_step, kind.rounding = problem.rounding;
   kind.residual_scale = pack_in_strips(problem, work, strips, solution, loops);
   kind.how = extrapolation_of(accelerated, problem.contacts());
   kind.single = sizeof(T) < sizeof(double);

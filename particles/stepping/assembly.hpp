@@ -1,6 +1,9 @@
 #pragma once
 // Assembles the contact problem u = W r + q of a step: W from normals and masses, q and the cones from what
 // each effect adds to a contact (particles/effects).
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 #include "particles/contact/problems.hpp"
@@ -98,6 +101,25 @@ void assemble_contact(const StepInput& step, const Candidate& pair, int a, Probl
   }
 }
 
+/// Of the velocities in q: those that rounding of positions and velocities leaves there stay below a
+/// ten-thousandth of it.
+inline double rounding_of(const StepInput& step, const TeamLoops& loops) {
+  struct Largest {
+    double place = 0, speed = 0;
+    void add(const Largest& more) {
+      place = std::max(place, more.place), speed = std::max(speed, more.speed);
+    }
+  };
+  const auto all = loops.combined<Largest>(step.bodies.count(), [&](std::size_t begin, std::size_t end) {
+    Largest some;
+    for (std::size_t b = begin; b < end; ++b)
+      some.add({std::max(std::abs(step.bodies.x[b]), std::abs(step.bodies.z[b])),
+                std::max(std::abs(step.free.x[b]), std::abs(step.free.z[b]))});
+    return some;
+  });
+  return 1e4 * std::numeric_limits<double>::epsilon() * (all.place / step.time_step + all.speed);
+}
+
 /// Writes the problem in the order of the contacts.
 template <class Problem>
 void assemble(const StepInput& step, const StepContacts& contacts, const TeamLoops& loops, Problem& problem) {
@@ -107,7 +129,7 @@ void assemble(const StepInput& step, const StepContacts& contacts, const TeamLoo
   problem.W.renew(count);
   resize_closely(problem.q, dim * count);
   resize_closely(problem.mu, (dim - 1) * count);
-  problem.time_step = step.time_step;
+  problem.time_step = step.time_step, problem.rounding = rounding_of(step, loops);
   loops.each(count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t a = begin; a < end; ++a)
       assemble_contact(step, contacts.pairs[a], static_cast<int>(a), problem);

@@ -42,10 +42,12 @@ MovingCell Simulation::begin_cell_step(double h) {
   return {cell, response};
 }
 
-/// Grains come back into the cell, and with them where they were at the beginning of velocity windows.
-void Simulation::end_cell_step(double h) {
+/// Velocities follow the images; grains come back into the cell, and with them where they were at the
+/// beginning of velocity windows.
+void Simulation::end_cell_step(const CellState& begun, double h) {
   CellState& cell = *state_.cell;
   const double before = state_.energy ? kinetic_energy(state_.bodies) : 0;
+  follow_images(begun, cell, state_.bodies);
   const std::vector<Point> shifts = wrap_grains(cell, state_.bodies);
   if (state_.energy) {
     state_.energy->kinetic = kinetic_energy(state_.bodies);

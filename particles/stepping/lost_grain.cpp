@@ -33,7 +33,8 @@ bool pushed_too_far(const Shape& wall, const Pose& step, Point grain, Point norm
   if (!std::holds_alternative<Segment>(wall) && !std::holds_alternative<Arc>(wall)) return false;
   const Point touched{grain.x - radius * normal.x, grain.z - radius * normal.z};
   const Point before = moved(inverse(step), touched);
-  return std::abs((touched.x - before.x) * normal.x + (touched.z - before.z) * normal.z) > radius;
+  // Not a number either.
+  return !(std::abs((touched.x - before.x) * normal.x + (touched.z - before.z) * normal.z) <= radius);
 }
 
 std::optional<LostGrain> grain_that_is_not_finite(const Bodies& bodies) {

@@ -230,8 +230,9 @@ StepReport Simulation::advance_here(double h) {
   MovingState moving{state_.bodies, state_.memory, state_.driven, state_.energy};
   if (!state_.cell) return stepper_->advance(moving, walls, h);
   moving.cell.emplace(begin_cell_step(h));
+  const CellState begun = *state_.cell;
   const StepReport report = stepper_->advance(moving, walls, h);
-  end_cell_step(h);
+  end_cell_step(begun, h);
   return report;
 }
 

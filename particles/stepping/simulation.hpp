@@ -119,7 +119,7 @@ class Simulation {
   StepReport advance_here(double time_step);
   StepReport advance_in_laboratory(double time_step);
   MovingCell begin_cell_step(double time_step);
-  void end_cell_step(double time_step);
+  void end_cell_step(const CellState& begun, double time_step);
   void mark_positions();
   void exchange();
   void count_left();

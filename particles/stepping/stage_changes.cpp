@@ -147,7 +147,8 @@ void Simulation::end_stage_if_due() {
   if (until && until->at_rest) {
     const double weight = std::numbers::pi / 4;  // of a disc of the mean diameter
     const auto grains = static_cast<double>(std::max<std::size_t>(1, state_.bodies.count()));
-    const double energy = kinetic_energy(state_.bodies) / grains;
+    const double drift = state_.cell ? energy_of_drift(state_.bodies) : 0;
+    const double energy = (kinetic_energy(state_.bodies) - drift) / grains;
     state_.rest_steps = energy < until->at_rest->energy * weight ? state_.rest_steps + 1 : 0;
     const double rested = static_cast<double>(state_.rest_steps) * h * scales_.time_s;
     if (state_.rest_steps > 0 && rested >= until->at_rest->for_s * (1 - 1e-9)) by = EndedBy::rest;

@@ -163,14 +163,14 @@ TEST(KeyTable, ReportsAllProblemsOfAFileInItsOrder) {
   EXPECT_EQ(
       texts,
       (std::vector<std::string>{
-          "g.toml:2:12: height_m: is 4 (allowed: number in m, above 0 to 3)",
+          "g.toml:2:12: height_m: is 4 (allowed: number in m, 1e-12 to 3)",
           "g.toml:3:8: soil: is \"lome\"; did you mean \"loam\"? (allowed: text, \"loam\", \"sand\")",
           "g.toml:4:8: open: is an integer (allowed: true or false)",
           "g.toml:5:10: colour: is unknown (allowed: beds, format, height_m, open, planted, rain, rows, "
           "soil, sown, title, visitors, water)",
           "g.toml:7:9: sown.seeds: is a number (allowed: integer, 1 to 100)",
           "g.toml:8:1: beds.0.name: is missing (allowed: text, not empty)",
-          "g.toml:10:12: beds.0.radius_m: is -1 (allowed: number in m, > 0)",
+          "g.toml:10:12: beds.0.radius_m: is -1 (allowed: number in m, >= 1e-12)",
           "g.toml:13:9: beds.1.shape: is \"oval\" (allowed: \"round\", \"square\")"}));
 }
 
@@ -222,7 +222,13 @@ TEST(KeyTable, RefusesAnotherVersionAndNothingElse) {
 }
 
 TEST(KeyTable, SaysThatAnOverrideIsToBlame) {
-  EXPECT_EQ(only_problem({"height_m=4"}), "override: height_m: is 4 (allowed: number in m, above 0 to 3)");
+  EXPECT_EQ(only_problem({"height_m=4"}), "override: height_m: is 4 (allowed: number in m, 1e-12 to 3)");
+}
+
+TEST(KeyTable, NoLengthIsFarBelowTheLargest) {
+  EXPECT_TRUE(problems_of(least, {"height_m=2e-9"}).empty());
+  EXPECT_EQ(only_problem({"height_m=2e-10"}),
+            "override: height_m: is 2e-10 (allowed: at least 1e-09 of the largest length)");
 }
 
 TEST(KeyTable, WritesWhatItReads) {
@@ -252,7 +258,7 @@ TEST(KeyTable, ListsEveryKeyOfEveryAlternative) {
   EXPECT_EQ(rows[5].allowed, "\"loam\", \"sand\"");
   EXPECT_EQ(rows[4].standard, "absent");
   expect_has(keys_as_text(rows), "sown.seeds\n    integer, 1 to 100, required\n    Number of seeds.\n");
-  expect_has(keys_as_markdown(rows), "| `height_m` | m, (0, 3] | absent | Height. |");
+  expect_has(keys_as_markdown(rows), "| `height_m` | m, [1e-12, 3] | absent | Height. |");
   const KeyRow turn{"wall.turn_deg", "number", "deg", "-360 to 360", "0.0", "kind = \"rocking\"", "Turn."};
   expect_has(keys_as_markdown({turn}), "| `wall.turn_deg` (rocking) | deg, +-360 | `0.0` | Turn. |");
 }

@@ -1,6 +1,7 @@
 // Walls that shake, and walls with glued discs.
 #include <numbers>
 
+#include "particles/stepping/run_through.hpp"
 #include "tests/effects/drums.hpp"
 
 namespace drumlin {
@@ -39,6 +40,40 @@ TEST(ShakenPlate, ThrowsADiscUpWhereItFallsFasterThanGravity) {
     if (simulation.state().bodies.z[0] > 0.5 + A * std::sin(rate * t) + 1e-8) lifts_at = t;
   }
   EXPECT_NEAR(lifts_at, std::asin(1 / acceleration) / rate, 5e-3);
+}
+
+TEST(Shaft, OfExactlyTheWidthOfADiscLetsItFallFreely) {
+  // Rounding alone presses the disc against walls: nothing is missed, all stays finite, and it moves as if
+  // alone.
+  for (const double degrees : {0.0, 30.0, 77.0})
+    for (const bool falls : {true, false})
+      for (const bool bounces : {true, false}) {
+        const double angle = degrees * std::numbers::pi / 180, n_x = std::cos(angle), n_z = std::sin(angle);
+        const Point middle{10.0 / 3, 100.1}, along{n_z, -n_x};
+        if (falls && degrees > 0) continue;  // a wall would carry it
+        Scene scene = scene_of({{middle.x, middle.z, 1, falls ? 0 : 3 * along.x, falls ? 0 : 3 * along.z}});
+        for (const double side : {-0.5, 0.5}) {
+          const Point foot{middle.x + side * n_x, middle.z + side * n_z};
+          scene.walls.push_back({"shaft", SegmentShape{{foot.x - 60 * along.x, foot.z - 60 * along.z},
+                                                       {foot.x + 60 * along.x, foot.z + 60 * along.z}}});
+        }
+        scene.solver = {};  // a wall that is too near by rounding misses finer tolerances
+        if (falls) scene.effects.gravity = Gravity{};
+        if (bounces) scene.effects.restitution = Restitution{0.5, 0.5};
+        add_stage(scene, 4, 0.02);
+        Simulation simulation(scene);
+        while (!simulation.finished()) {
+          const StepReport report = simulation.step();
+          ASSERT_TRUE(is_converged(report)) << degrees << falls << bounces;
+          ASSERT_LT(report.solve.residual.rms, 1e-2);
+          ASSERT_LT(report.solve.residual.max, 1e-1);
+          ASSERT_LT(report.solve.residual.sinking, 1e-10);
+          ASSERT_LE(report.solve.sweeps, 100);
+        }
+        const Bodies& bodies = simulation.state().bodies;
+        EXPECT_NEAR(bodies.v_x[0], falls ? 0 : 3 * along.x, 1e-6);
+        EXPECT_NEAR(bodies.v_z[0], falls ? -4 : 3 * along.z, 1e-6);
+      }
 }
 
 TEST(Rocking, ReachesItsAmplitudeAndComesBackExactly) {

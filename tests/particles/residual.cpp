@@ -235,6 +235,23 @@ TEST(Residual, SeesNotANumber) {
   EXPECT_TRUE(std::isnan(residual(disc_on_floor(nan, 0, 0.5), {1, 0}).rms));
 }
 
+TEST(Residual, RefersToRoundingWhereQIsSmaller) {
+  // A disc between two walls, too wide for them by rounding: e = 1e-17 at each. What cancels carries nothing.
+  FrictionlessProblem problem;
+  problem.W.inverse_mass = {1, 0};
+  problem.W.add(0, 1, 1, 0);
+  problem.W.add(0, 1, -1, 0);
+  problem.q = {-1e-17, -1e-17};
+  const std::vector<double> r = {1e-17, 1e-17};
+  EXPECT_EQ(residual_of(problem, std::span<const double>(r)).sinking, std::numeric_limits<double>::infinity());
+  problem.rounding = 1e-13;
+  const ContactResidual v = residual_of(problem, std::span<const double>(r));
+  EXPECT_NEAR(v.rms, 1e-4, 1e-5);
+  EXPECT_EQ(v.sinking, 0);
+  problem.q = {-1, -1};
+  EXPECT_EQ(residual_of(problem, std::span<const double>(r)).rms, 1);
+}
+
 TEST(Residual, EmptyProblemIsSolved) {
   CoulombSpinProblem problem;
   problem.W.inverse_mass = {1, 0};
