@@ -10,6 +10,7 @@
 #include "apps/json/json_file.hpp"
 #include "apps/output/commands.hpp"
 #include "apps/output/output_folder.hpp"
+#include "apps/process/program_files.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/machine/child_process.hpp"
@@ -43,7 +44,10 @@ void ask_flow(const std::vector<std::string>& words, const std::function<void(co
 /// All cases, in the order of the table.
 std::vector<Listed> listed_cases() {
   std::vector<Listed> all;
-  for (const HardCase& hard : particle_hard_cases()) all.push_back({hard.name, hard.fast, &hard});
+  static const auto data = data_folder_if_any();
+  static const auto of_scenes = data ? scene_cases(*data / "scenes") : std::vector<HardCase>();
+  for (const auto* cases : {&particle_hard_cases(), &of_scenes})
+    for (const HardCase& hard : *cases) all.push_back({hard.name, hard.fast, &hard});
   ask_flow({"--list"}, [&](const Json& row) {
     all.push_back({row.at("name").get<std::string>(), row.at("fast").get<bool>(), nullptr});
   });

@@ -1,5 +1,6 @@
 #pragma once
 // The registry of hard cases: one list per simulator, in the order in which `drumlin hardcases` shows them.
+#include <filesystem>
 #include <vector>
 
 #include "tests/hardcases/hard_case.hpp"
@@ -8,6 +9,9 @@ namespace drumlin {
 
 /// The cases of the particles, run through the public engine. Library drumlin::particle_hard_cases.
 const std::vector<HardCase>& particle_hard_cases();
+
+/// The worst pair of each shipped scene of a folder. Same library.
+std::vector<HardCase> scene_cases(const std::filesystem::path& scenes);
 
 /// The cases of the continuum, run through the public solver. FemRuntime has to live; all ranks run a case
 /// together. Library drumlin::flow_hard_cases, which links deal.II.

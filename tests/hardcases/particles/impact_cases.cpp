@@ -77,6 +77,22 @@ std::vector<HardCheck> cradle_of_five() {
   return checks;
 }
 
+/// Impacts on grains that others are near, and do not touch.
+std::vector<HardCheck> near_misses() {
+  const double h = 0.0313, speed = 3.2;  // of 10 mm: 1e-3 s, 1 m/s
+  const Bodies row_end = end_of(row({{0, 0, 1, speed}, {1.01, 0}, {2.02, 0}}, 1, 6 * h, h));
+  Trial passing = row({{0.51, 0, 1, -speed}, {1.53, -0.15, 1, 0, 3 * speed}}, 0, 2 * h, h);
+  passing.scene.walls = {trial_segment("left", 0, -9, 0, 9)};
+  const Bodies end = end_of(passing);
+  const std::string why = "each impact is of two bodies; rounding";
+  return {equals("first of a row with gaps of 0.01 d, e = 1", 0, row_end.v_x[0], 1e-9, why),
+          equals("second", 0, row_end.v_x[1], 1e-9, why),
+          equals("third / speed", 1, row_end.v_x[2] / speed, 1e-9, why),
+          equals("speed gained by a disc that passes 0.03 d behind one that a wall stops", 0,
+                 std::hypot(end.v_x[1], end.v_z[1] - 3 * speed), 1e-9, "they never touch"),
+          equals("speed of the one that was stopped", 0, std::hypot(end.v_x[0], end.v_z[0]), 1e-9, "e = 0")};
+}
+
 /// Velocities after a disc without spin has met a floor, without gravity.
 Bodies oblique_impact(double v_t, double v_n, double mu, double e) {
   Trial trial;
@@ -180,6 +196,7 @@ std::vector<HardCase> impact_cases() {
        fast_passes},
       {"fast-target", "a disc at 200 sqrt(g d) pushes its target onto the next, e = 0: v/3 each", true,
        fast_target},
+      {"near-misses", "impacts act on those that touch, not on those that are near", true, near_misses},
   };
 }
 
