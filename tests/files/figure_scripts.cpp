@@ -180,7 +180,7 @@ assert drawn == {path.name: path.read_bytes() for path in folder.iterdir() if no
 
 TEST(ReportCosts, DrawsWhatTheRepositoryRecorded) {
   const TemporaryFolder folder;
-  draw_figures("report_costs.py", {cost_data_folder().string(), folder.path().string()});
+  draw_figures("report_costs.py", {cost_data_folder().value().string(), folder.path().string()});
   int accuracy = 0, effects = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
     const std::string name = entry.path().filename().string();

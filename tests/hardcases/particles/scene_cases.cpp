@@ -38,7 +38,7 @@ std::vector<HardCheck> worst_pair(const std::filesystem::path& file, const Shipp
 std::vector<HardCase> scene_cases(const std::filesystem::path& scenes) {
   const std::string third = "solver.tolerance=3e-3";
   const std::vector<ShippedScene> all = {
-      {"drum-6rpm", {third, "stages.1.turns=0.1", "stages.2.turns=0.1"}, 1e-3},
+      {"drum-6rpm", {third, "stages.1.turns=0.1", "stages.2.turns=0.1", "stages.2.snapshots=10"}, 1e-3},
       {"chute", {third}, 1e-3},
       {"silo", {third}, 1e-3},
       {"segregation-drum", {third}, 1e-3},
