@@ -33,7 +33,7 @@ double least_in(const std::string& unit) {
   static const std::map<std::string, double> least = {
       {"mm", 1e-9},   {"m", 1e-12},   {"s", 1e-12},    {"mm/s", 1e-12}, {"kg", 1e-18},  {"kg/m", 1e-15},
       {"Pa", 1e-9},   {"N/m2", 1e-9}, {"1/s", 1e-12},  {"Hz", 1e-12},   {"rpm", 1e-12}, {"turns", 1e-12},
-      {"m/s2", 1e-9}, {"d", 1e-9},    {"kg/m3", 1e-6}, {"deg", 1e-9}};
+      {"m/s2", 1e-9}, {"d", 1e-15},    {"kg/m3", 1e-6}, {"deg", 1e-9}};
   const auto found = least.find(unit);
   return found == least.end() ? 0 : found->second;
 }
