@@ -261,6 +261,7 @@ std::span<const Candidate> ContactDetection::find(const Bodies& bodies, std::spa
   const GrainMotion motion = motion_of(bodies, v_x, v_z, input, loops_);
   const PairRule rule{input.time_step, input.margin, motion.speeds, input.period};
   const double range = listed_range(motion, input);
+  listed_within_ = input.margin + thrown * motion.smallest;
   cell_ = finest_cell(motion, range);
   list_pairs({bodies, v_x, v_z, input.period}, rule, range, motion.smallest);
   pairs_.find_closing(rule, bounds_);

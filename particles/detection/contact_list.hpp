@@ -68,6 +68,8 @@ class ContactDetection {
   std::int64_t distances() const { return pairs_.distances(); }
   /// Pairs that the list holds from one search to the next, and what that takes.
   std::span<const ListedPair> listed_pairs() const { return pairs_.listed_pairs(); }
+  /// All pairs with smaller gaps are among them, whatever the age of the list.
+  double listed_within() const { return listed_within_; }
   std::size_t listed() const { return listed_pairs().size(); }
   std::size_t bytes() const { return pairs_.bytes() + grids_.bytes(); }
   /// Twice the displacement, in the last search, that the approach of its pairs may give a grain: 2 h a_i.
@@ -97,6 +99,7 @@ class ContactDetection {
   GrainGrids grids_;
   GrainPairs pairs_;
   Lists lists_;
+  double listed_within_ = 0;
   double cell_ = 0;                   // edge of the cells of the finest grid of a list that is used once
   std::vector<WeighedPair> weighed_;  // of grains and walls
   std::vector<double> bounds_;        // 2 h a_i of each body

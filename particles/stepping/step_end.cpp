@@ -59,7 +59,8 @@ bool MissedPairs::find(const StepEnd& end, const FreeMotion& searched, const Con
     const double reach = bodies.radius[pair.i] + bodies.radius[pair.j];
     Candidate found{pair.i, pair.j, 0, 0, 0, image.x, image.z};
     found.gap = normal_of(d.x, d.z, found.n_x, found.n_z) - reach;
-    if (found.gap < end.step.laws.detection_margin) continue;  // is among the pairs
+    // Those below the margin are among the pairs; which of those beyond are listed depends on the list's age.
+    if (found.gap < end.step.laws.detection_margin || found.gap >= detection.listed_within()) continue;
     const Point from_i = end.shift(pair.i), from_j = end.shift(pair.j);
     const Point d_i = end.displacement(pair.i, false), d_j = end.displacement(pair.j, false);
     const double x = d.x + from_i.x - from_j.x + d_i.x - d_j.x - end.step.time_step * image.x;
