@@ -14,7 +14,7 @@ TESTS = SOURCES / "tests/chain"
 def results(tmp_path_factory):
     """A tiny drum on both sides: run, law, flow, comparison."""
     place = tmp_path_factory.mktemp("results")
-    drumlin.run(TESTS / "tiny-drum.toml", place / "RUN", {"stages.1.turns": 0.1, "stages.2.turns": 0.2, "stages.2.snapshots": 8})
+    drumlin.run(TESTS / "tiny-drum.toml", place / "RUN", {"stages.1.turns": 0.3, "stages.2.turns": 0.4, "stages.2.snapshots": 8})
     drumlin.command("measure", place / "RUN", "--parts", "maps")
     drumlin.command("calibrate", place / "RUN", "-o", place / "law.toml", "--accept-unsteady")
     drumlin.solve_flow(TESTS / "tiny-drum-flow.toml", SOURCES / "data/rheology/paper.toml", place / "FLOW", {"solver.sensitivity": False})
