@@ -1,6 +1,10 @@
 #include "particles/io/snapshot_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
 
 #include "coupling/common/errors.hpp"
@@ -82,12 +86,23 @@ void add_contacts(const Snapshot& s, H5Writer& out) {
   add("contacts/impulse_t", &SnapshotContact::impulse_t, {unit, "on i along (n_z, -n_x)"});
 }
 
+/// Refuses what no step leaves, whatever the checksum says.
+template <class Values>
+void require_finite(const H5Reader& in, const char* name, const Values& values) {
+  for (const double value : values)
+    if (!std::isfinite(value)) in.refuse(name, fmt::format("holds {}", value), "finite numbers");
+}
+
 void read_contacts(const H5Reader& in, Snapshot& s) {
   const auto i = in.ints("contacts/i"), j = in.ints("contacts/j");
   const auto n_x = in.floats("contacts/normal_x"), n_z = in.floats("contacts/normal_z");
   const auto r_n = in.doubles("contacts/impulse_n"), r_t = in.doubles("contacts/impulse_t");
   for (const std::size_t size : {j.size(), n_x.size(), n_z.size(), r_n.size(), r_t.size()})
     if (size != i.size()) in.refuse("contacts", "arrays of unequal length");
+  require_finite(in, "contacts/normal_x", n_x), require_finite(in, "contacts/normal_z", n_z);
+  require_finite(in, "contacts/impulse_n", r_n), require_finite(in, "contacts/impulse_t", r_t);
+  if (!i.empty() && !(s.time_step > 0))
+    in.refuse("time_step", fmt::format("is {}", s.time_step), "above 0 where there are contacts");
   const auto bodies = static_cast<std::int32_t>(s.x.size());
   s.contacts.reserve(i.size());
   for (std::size_t c = 0; c < i.size(); ++c) {
@@ -130,12 +145,16 @@ Snapshot read_snapshot(const std::filesystem::path& file) {
   in.require_format(snapshot_format);
   Snapshot s;
   s.step = in.integer("step");
-  const auto number = [&in](const char* name, double& value, H5Words) { value = in.number(name); };
+  const auto number = [&in](const char* name, double& value, H5Words) {
+    value = in.number(name);
+    require_finite(in, name, std::array{value});
+  };
   each_number_of_snapshot(s, number);
   s.scales = in.scales();
   const auto per_grain = [&](const char* name, std::vector<double>& values, H5Words) {
     values = in.doubles(name);
     if (values.size() != s.x.size()) in.refuse(name, "not one entry per grain");
+    require_finite(in, name, values);
   };
   each_array_of_grains(s, per_grain);
   each_further_array_of_grains(s, [&](const char* name, auto& values, H5Words words) {
@@ -151,6 +170,7 @@ Snapshot read_snapshot(const std::filesystem::path& file) {
     each_array_of_walls(s, [&](const char* name, std::vector<double>& values, H5Words) {
       values = in.doubles(name);
       if (values.size() != s.wall_pose_angle.size()) in.refuse("walls", "arrays of unequal length");
+      require_finite(in, name, values);
     });
   if (in.has("walls/open")) s.wall_open = in.ints("walls/open", 0, 1);
   if (in.has("cell")) each_number_of_cell(s.cell.emplace(), number);

@@ -1,7 +1,9 @@
 // Snapshot, checkpoint and problem files: round trips, and damage that must not pass.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <functional>
 
 #include "coupling/common/errors.hpp"
 #include "coupling/hdf5/h5_reader.hpp"
@@ -74,6 +76,25 @@ TEST(SnapshotFile, EveryBitFlipAndEveryCutIsRefused) {
       bad[place] = static_cast<char>(bad[place] ^ (1 << (random.bits() % 8)));
     std::ofstream(damaged, std::ios::binary) << bad;
     EXPECT_THROW(read_snapshot(damaged), InputError) << place;
+  }
+}
+
+// Behind a checksum that holds.
+TEST(SnapshotFile, ValuesThatNoStepLeavesAreRefused) {
+  const TemporaryFolder folder;
+  const double nan = std::nan("");
+  const std::vector<std::function<void(Snapshot&)>> spoilt = {
+      [&](Snapshot& s) { s.x[2] = nan; },
+      [&](Snapshot& s) { s.displacement_z[0] = nan; },
+      [&](Snapshot& s) { s.time = HUGE_VAL; },
+      [&](Snapshot& s) { s.wall_pose_x[1] = nan; },
+      [&](Snapshot& s) { s.contacts[0].impulse_n = HUGE_VAL; },
+      [&](Snapshot& s) { s.time_step = 0; }};
+  for (std::size_t k = 0; k < spoilt.size(); ++k) {
+    Snapshot s = some_snapshot();
+    spoilt[k](s);
+    write_snapshot(folder.path() / "s.h5", s);
+    EXPECT_THROW(read_snapshot(folder.path() / "s.h5"), InputError) << k;
   }
 }
 
