@@ -15,7 +15,7 @@ def connected(snapshot, reach=1.1):
     """Grains that hang together with the mass in the corner, over gaps up to a tenth of a diameter."""
     x, z, r = snapshot["x"], snapshot["z"], snapshot["radius"]
     found = numpy.zeros(len(x), bool)
-    edge = [int(numpy.argmin(numpy.hypot(x, z)))]
+    edge = list(numpy.nonzero(numpy.hypot(x, z) < 3)[0])
     found[edge] = True
     while edge:
         k = edge.pop()
