@@ -13,6 +13,11 @@ double duration_s(const Stage& stage) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+double steps_of(const Stage& stage) {
+  const double steps = duration_s(stage) / stage.time_step_s, nearest = std::round(steps);
+  return nearest >= 1 && steps > 1.01 * nearest ? nearest + 1 : nearest;
+}
+
 bool moves_walls_by_force(const Scene& scene) {
   return any_stage(scene, [](const Stage& stage) {
     return std::any_of(stage.motions.begin(), stage.motions.end(), is_driven);

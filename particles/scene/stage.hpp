@@ -95,5 +95,8 @@ struct Stage {
 /// Seconds of a stage, from duration_s or from its turns; NaN for a stage that validate() refuses. One with
 /// `until` may end before.
 double duration_s(const Stage& stage);
+/// The steps of a stage: the nearest number to its length over the step asked for, but none longer than that
+/// by more than a hundredth. 0: it is shorter than half a step.
+double steps_of(const Stage& stage);
 
 }  // namespace drumlin::particles

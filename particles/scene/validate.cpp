@@ -186,7 +186,7 @@ void check_length(const Stage& stage, const std::string& key, Faults& faults) {
 void check_steps(const Scene& scene, std::size_t s, Faults& faults) {
   const Stage& stage = scene.stages[s];
   const std::string key = stage_key(s);
-  const double length = duration_s(stage), steps = std::round(length / stage.time_step_s);
+  const double length = duration_s(stage), steps = steps_of(stage);
   const std::vector<std::string> about = {key + ".duration_s", key + ".turns", key + ".motions",
                                           key + ".time_step_s"};
   if (!(steps >= 1 && steps <= most_steps)) {

@@ -10,7 +10,7 @@ TimePlan time_plan(const Scene& scene, const Scales& scales, std::span<const Sta
   for (std::size_t k = 0; k < scene.stages.size(); ++k) {
     const Stage& stage = scene.stages[k];
     const double duration = duration_s(stage);
-    const auto steps = std::max<std::int64_t>(1, std::llround(duration / stage.time_step_s));
+    const auto steps = std::max<std::int64_t>(1, std::llround(steps_of(stage)));
     const std::int64_t done = k < ends.size() ? std::min(ends[k].steps, steps) : steps;
     const auto add = [&plan](std::int64_t at) {
       if (plan.snapshot_steps.empty() || at > plan.snapshot_steps.back()) plan.snapshot_steps.push_back(at);

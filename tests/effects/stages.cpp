@@ -23,6 +23,16 @@ Scene sliding_disc(double mu) {
   return scene;
 }
 
+TEST(TimePlan, TakesNoStepMuchLongerThanTheOneAskedFor) {
+  const std::vector<std::pair<double, std::int64_t>> steps_of = {{0.01, 1},  {0.0149, 2}, {0.02, 2},
+                                                                 {0.021, 3}, {0.3, 30},   {1.003, 100}};
+  for (const auto& [duration, steps] : steps_of) {
+    Scene scene = scene_of({{0, 0.5}});
+    add_stage(scene, duration, 0.01);
+    EXPECT_EQ(time_plan(scene, scales_of(scene)).steps, steps) << duration;
+  }
+}
+
 TEST(OpenedWall, LetsADiscFallAndKeepsTheNumbersOfTheOthers) {
   const double h = 0.01;
   Scene scene = scene_of({{0, 0.5}});
