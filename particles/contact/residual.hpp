@@ -43,7 +43,10 @@ double squared_error(const Problem& problem, int a, std::span<const double> r, s
 /// Sum of squares, in four parts: one part would wait for itself.
 inline double squared_norm(std::span<const double> entries) {
   std::array<double, 4> parts{};
-  for (std::size_t k = 0; k < entries.size(); ++k) parts[k % 4] += entries[k] * entries[k];
+  std::size_t k = 0;
+  for (; k + 4 <= entries.size(); k += 4)
+    for (std::size_t part = 0; part < 4; ++part) parts[part] += entries[k + part] * entries[k + part];
+  for (; k < entries.size(); ++k) parts[k % 4] += entries[k] * entries[k];
   return (parts[0] + parts[1]) + (parts[2] + parts[3]);
 }
 
@@ -61,8 +64,14 @@ template <class State>
 double summed_impulses(const State& bodies, TeamLoops& loops) {
   if constexpr (requires(typename State::value_type body) { body.inverse_mass; })
     return loops.sum(bodies.size(), [&](std::size_t begin, std::size_t end) {
+      constexpr std::size_t some = 64;  // roots and quotients of these do not wait for the sum
+      std::array<double, some> impulses;
       double sum = 0;
-      for (std::size_t b = begin; b < end; ++b) sum += impulse_of(bodies[b]);
+      for (; begin < end; begin += some) {
+        const std::size_t count = std::min(some, end - begin);
+        for (std::size_t k = 0; k < count; ++k) impulses[k] = impulse_of(bodies[begin + k]);
+        for (std::size_t k = 0; k < count; ++k) sum += impulses[k];
+      }
       return sum;
     });
   else

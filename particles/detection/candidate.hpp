@@ -1,6 +1,7 @@
 #pragma once
 // A pair of a grain and another grain or a wall that touch or may touch within the step.
 #include <cstdint>
+#include <span>
 
 #include "particles/bodies/walls.hpp"
 
@@ -15,6 +16,12 @@ struct Candidate {
   /// Displacement of the wall's material point over the step / step; between grains, velocity of the image of
   /// j that is nearest against j itself, 0 unless images move.
   double wall_v_x = 0, wall_v_z = 0;
+};
+
+/// The bodies of pairs, which many loops need alone: grains, and from `fixed` on walls.
+struct PairBodies {
+  std::span<const std::int32_t> i, j;
+  std::int32_t fixed = 0;
 };
 
 /// Components of a relative velocity of i and j.

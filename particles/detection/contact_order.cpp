@@ -26,8 +26,8 @@ std::span<const double> ContactOrder::folded(const Bodies& bodies, const Period&
 
 void ContactOrder::find(std::span<const Candidate> pairs, const Bodies& bodies, const Period& period,
                         SweepPlan& plan) {
-  i_.renew(pairs.size());
-  j_.renew(pairs.size());
+  resize_closely(i_, pairs.size());
+  resize_closely(j_, pairs.size());
   loops_.each(pairs.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) i_[p] = pairs[p].i, j_[p] = pairs[p].j;
   });

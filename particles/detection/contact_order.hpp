@@ -18,11 +18,14 @@ class ContactOrder {
     planner_.use(team);
   }
   /// Takes work space from a memory, in the frame that is open when pairs are sorted.
-  void use(WorkMemory* memory) { i_.use(memory), j_.use(memory), planner_.use(memory); }
+  void use(WorkMemory* memory) { planner_.use(memory); }
   /// Finds the order of `pairs`, and their plan: slices along the longer side of the packing (along z in a
   /// periodic domain; in a cell, folded there).
   void find(std::span<const Candidate> pairs, const Bodies& bodies, const Period& period, SweepPlan& plan);
-  std::size_t bytes() const { return bytes_of(order_); }
+  std::size_t bytes() const { return bytes_of(order_) + bytes_of(i_) + bytes_of(j_); }
+  /// The pairs given, without the rest of a candidate: many loops need no more.
+  std::span<const std::int32_t> i() const { return i_; }
+  std::span<const std::int32_t> j() const { return j_; }
   /// Position among the pairs given of each pair in solve order.
   std::span<const std::int32_t> order() const { return order_; }
 
@@ -32,8 +35,7 @@ class ContactOrder {
 
   SweepPlanner planner_;
   std::vector<double> folded_;
-  WorkArray<std::int32_t> i_, j_;
-  std::vector<std::int32_t> order_;
+  std::vector<std::int32_t> i_, j_, order_;
 };
 
 }  // namespace drumlin::particles

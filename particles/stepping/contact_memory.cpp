@@ -103,41 +103,34 @@ RememberedLoads Recollection::loads(const ContactMemory& memory, int dim, double
   return {{place_.data(), place_.size()}, memory.impulse, dim, scale_of(memory, time_step)};
 }
 
-RememberedLoads Recollection::loads_of(std::span<const Candidate> pairs, const ContactMemory& memory, int dim,
-                                       double time_step) {
-  place_of_some_.clear();
-  for (const Candidate& pair : pairs) place_of_some_.push_back(place_of(memory, pair));
-  return {place_of_some_, memory.impulse, dim, scale_of(memory, time_step)};
-}
-
 void Recollection::warm_start(const ContactMemory& memory, int dim, double time_step,
                               std::span<const std::int32_t> order, std::vector<double>& impulses) const {
   resize_closely(impulses, dim * place_.size());
   const double scale = scale_of(memory, time_step);
   const std::int32_t* const place = place_.data();
   loops_.each(place_.size(), [&](std::size_t begin, std::size_t end) {
+    const double* const from = memory.impulse.data();
     double* to = impulses.data() + dim * begin;
     for (std::size_t a = begin; a < end; ++a) {
       const std::int32_t m = place[order[a]];
-      for (int c = 0; c < dim; ++c) *to++ = m < 0 ? 0 : scale * memory.impulse[dim * m + c];
+      for (int c = 0; c < dim; ++c) *to++ = m < 0 ? 0 : scale * from[dim * m + c];
     }
   });
 }
 
-void remember(std::span<const Candidate> pairs, std::span<const std::int32_t> order,
-              const std::vector<double>& impulses, double time_step, const TeamLoops& loops,
-              ContactMemory& memory) {
+void remember(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
+              std::span<const std::int32_t> order, const std::vector<double>& impulses, double time_step,
+              const TeamLoops& loops, ContactMemory& memory) {
   memory.time_step = time_step;
-  resize_closely(memory.i, pairs.size());
-  resize_closely(memory.j, pairs.size());
+  resize_closely(memory.i, i.size());
+  resize_closely(memory.j, j.size());
   resize_closely(memory.impulse, impulses.size());
-  const std::size_t dim = pairs.empty() ? 0 : impulses.size() / pairs.size();
-  loops.each(pairs.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t a = begin; a < end; ++a) {
-      const std::size_t m = order[a];
-      memory.i[m] = pairs[a].i, memory.j[m] = pairs[a].j;
-      for (std::size_t c = 0; c < dim; ++c) memory.impulse[dim * m + c] = impulses[dim * a + c];
-    }
+  std::copy(i.begin(), i.end(), memory.i.begin());
+  std::copy(j.begin(), j.end(), memory.j.begin());
+  const std::size_t dim = i.empty() ? 0 : impulses.size() / i.size();
+  loops.each(i.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t a = begin; a < end; ++a)
+      for (std::size_t c = 0; c < dim; ++c) memory.impulse[dim * order[a] + c] = impulses[dim * a + c];
   });
 }
 

@@ -54,8 +54,6 @@ class Recollection {
                   std::span<const Candidate> pairs_added);
   /// Normal impulses of the pairs that were looked for, for a step of length `time_step`.
   RememberedLoads loads(const ContactMemory&, int dim, double time_step) const;
-  /// The same of some pairs alone, whether they were looked for or not.
-  RememberedLoads loads_of(std::span<const Candidate> pairs, const ContactMemory&, int dim, double time_step);
   /// Impulses that a step of length `time_step` starts from: those remembered, 0 for new contacts. `order`:
   /// position of each among the pairs that were looked for.
   void warm_start(const ContactMemory&, int dim, double time_step, std::span<const std::int32_t> order,
@@ -63,12 +61,13 @@ class Recollection {
 
  private:
   TeamLoops loops_;
-  WorkArray<std::int32_t> place_;            // of each pair that was looked for
-  std::vector<std::int32_t> place_of_some_;  // of the pairs of loads_of()
+  WorkArray<std::int32_t> place_;  // of each pair that was looked for
 };
 
-/// Keeps contacts and impulses of a step. `order`: position of each contact in the order of (i, j).
-void remember(std::span<const Candidate> pairs, std::span<const std::int32_t> order,
-              const std::vector<double>& impulses, double time_step, const TeamLoops&, ContactMemory&);
+/// Keeps the pairs (i, j) of a step, in order, and their impulses, of which `order` tells the positions
+/// there.
+void remember(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
+              std::span<const std::int32_t> order, const std::vector<double>& impulses, double time_step,
+              const TeamLoops&, ContactMemory&);
 
 }  // namespace drumlin::particles

@@ -127,7 +127,7 @@ void Impacts::begin(const ImpactInput& input) {
 /// moves the cell.
 int Impacts::most() const { return in_->step.cell.pressed() ? 1 : most_impacts; }
 
-bool Impacts::find_closings() {
+bool Impacts::find_closings(std::span<const char> of_bodies) {
   const StepInput& step = in_->step;
   const double h = step.time_step;
   const auto& v_x = step.bodies.v_x;
@@ -138,6 +138,7 @@ bool Impacts::find_closings() {
     PairList list;
     for (auto a = static_cast<std::int32_t>(begin); a < static_cast<std::int32_t>(end); ++a) {
       const Candidate& pair = in_->pairs[a];
+      if (!of_bodies.empty() && (of_bodies[pair.i] | (pair.j >= 0 ? of_bodies[pair.j] : 0)) == 0) continue;
       if (pair.j >= 0 && !shifted) {  // nearly all of them: no more than the velocities
         const double u_n = pair.n_x * (v_x[pair.i] - v_x[pair.j] - pair.wall_v_x) +
                            pair.n_z * (v_z[pair.i] - v_z[pair.j] - pair.wall_v_z);
@@ -345,9 +346,12 @@ void Impacts::give_back(const ImpactOutput& output) {
   }
 }
 
-bool Impacts::any(const ImpactInput& input) {
+bool Impacts::go_on(const ImpactInput& input) {
+  if (!input.step.driven.empty()) return true;  // walls have been struck too
   begin(input);
-  return find_closings();
+  is_struck_.assign(input.step.bodies.count(), 0);
+  for (const StruckGrain& struck : struck_) is_struck_[struck.grain] = 1;
+  return find_closings(is_struck_);
 }
 
 void Impacts::resolve(const ImpactInput& input, const ImpactOutput& output) {

@@ -58,8 +58,9 @@ class Impacts {
   }
   void resolve(const ImpactInput& input, const ImpactOutput& output);
 
-  /// Whether resolve() would have anything to do.
-  bool any(const ImpactInput& input);
+  /// Whether it would have anything to do once more, after a search for more pairs: only at grains that the
+  /// last call struck.
+  bool go_on(const ImpactInput& input);
 
   // Of the last call of resolve().
   std::span<const StruckGrain> struck() const { return struck_; }
@@ -81,8 +82,8 @@ class Impacts {
   };
 
   void begin(const ImpactInput&);
-  /// The pairs that may meet within the step.
-  bool find_closings();
+  /// The pairs that may meet within the step, all or those of some bodies alone.
+  bool find_closings(std::span<const char> of_bodies = {});
   /// Lists the pairs of each body.
   void link();
   std::int32_t grains() const;
@@ -132,6 +133,7 @@ class Impacts {
   WorkArray<std::int32_t> first_, next_;   // pairs of each body, linked
   WorkArray<std::int32_t> met_, in_pass_;  // how often each pair has met; the last impact that it was in
   std::vector<StruckGrain> struck_;
+  std::vector<char> is_struck_;  // of each body, within go_on() alone
   ImpactWork work_;
   int count_ = 0, unresolved_ = 0, passes_ = 0;
   double slowest_ = 0;

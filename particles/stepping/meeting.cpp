@@ -237,22 +237,26 @@ void place_struck(const StepInput& step, Candidate& pair) {
 
 }  // namespace
 
-void place_pairs(const StepInput& step, std::span<const char> beside_grains, std::span<Candidate> pairs) {
+void place_pairs(const StepInput& step, std::span<const char> beside_grains, std::span<const char> shifted,
+                 std::span<Candidate> pairs) {
   const double h = step.time_step;
   const auto& v_x = step.bodies.v_x;
   const auto& v_z = step.bodies.v_z;
+  const auto& radius = step.bodies.radius;
   const auto& shift = step.free.shift;
   for (Candidate& pair : pairs) {
     if (pair.j < 0) {
       place_at_wall(step, !beside_grains[pair.i], pair);
-    } else if (!shift.empty() && (shift[pair.i].x != shift[pair.j].x || shift[pair.i].z != shift[pair.j].z)) {
+    } else if ((shifted[pair.i] | shifted[pair.j]) != 0 &&
+               (shift[pair.i].x != shift[pair.j].x || shift[pair.i].z != shift[pair.j].z)) {
       place_struck(step, pair);
     } else if (pair.gap <= 0) {
       pair.gap = 0;
-    } else if (const double u_n = pair.n_x * (v_x[pair.i] - v_x[pair.j] - pair.wall_v_x) +
-                                  pair.n_z * (v_z[pair.i] - v_z[pair.j] - pair.wall_v_z);
-               pair.gap + h * u_n < 0) {
-      const PairPath path(step, pair, {v_x[pair.i], v_z[pair.i]}, {v_x[pair.j], v_z[pair.j]});
+    } else if (const Point u{v_x[pair.i] - v_x[pair.j] - pair.wall_v_x,
+                             v_z[pair.i] - v_z[pair.j] - pair.wall_v_z};
+               pair.gap + h * normal_part(pair, u) < 0) {
+      const double reach = radius[pair.i] + radius[pair.j], distance = reach + pair.gap;
+      const PairPath path({pair.n_x * distance, pair.n_z * distance}, u, reach);
       place_at(path, path.nearest(h), nullptr, pair);
     }
   }

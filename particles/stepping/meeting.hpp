@@ -74,7 +74,9 @@ void turn_wall_velocity(const Surfaces& now, const Point& centre, Candidate& pai
 /// the end of their paths. The gap is that along the normal, from where the paths begin: with any normal,
 /// gap + (displacement within the step) . normal >= 0 excludes an overlap at the end. It is negative of
 /// struck pairs alone, whose paths begin within each other. A wall that a grain does not reach on its path
-/// stops nothing. `beside_grains`: of each grain, whether it has a pair with another grain.
-void place_pairs(const StepInput& step, std::span<const char> beside_grains, std::span<Candidate> pairs);
+/// stops nothing. `beside_grains`: of each grain, whether it has a pair with another grain; `shifted`:
+/// whether its path begins elsewhere than it is.
+void place_pairs(const StepInput& step, std::span<const char> beside_grains, std::span<const char> shifted,
+                 std::span<Candidate> pairs);
 
 }  // namespace drumlin::particles

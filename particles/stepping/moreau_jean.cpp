@@ -73,7 +73,7 @@ class MoreauJean final : public Stepper {
       solve(step, report, watch);
     }
     find_lone_steps(step, state.memory);
-    remember(contacts_.pairs, order_.order(), solution_.impulses, time_step, TeamLoops(&team_), state.memory);
+    remember_in(state.memory, time_step);
     move(step, bodies);
     if (step_energy_) step_energy_->move(bodies, time_step, *state.energy);
     if (step_energy_) add_contact_work(step, contacts_, problem_, solution_, *step_energy_, *state.energy);
@@ -142,9 +142,11 @@ class MoreauJean final : public Stepper {
   int velocities_per_body() const override { return with_spin ? 3 : 2; }
 
  private:
+  TeamLoops loops() { return TeamLoops(&team_); }
+
   /// Velocities without contacts, attractions aside: their pairs are not known yet.
   void move_freely(const StepInput& step) {
-    set_free_motion(step.bodies, laws_, step.time_step, TeamLoops(&team_), free_);
+    set_free_motion(step.bodies, laws_, step.time_step, loops(), free_);
     free_.driven.clear();
     for (std::size_t k = 0; k < step.driven.size(); ++k)
       free_.driven.push_back(free_velocity(step.walls.driven[k], step.driven[k], step.time_step) +
@@ -173,19 +175,22 @@ class MoreauJean final : public Stepper {
   void take_candidates(const StepInput& step, std::span<const std::int32_t> order) {
     const auto found = detection_.candidates();
     beside_.assign(step.bodies.count(), 0);
-    for (const Candidate& pair : found)
-      if (pair.j >= 0) beside_[pair.i] = beside_[pair.j] = 1;
+    for (std::size_t a = 0; a < found.size(); ++a)
+      if (const std::int32_t i = order_.i()[a], j = order_.j()[a]; j >= 0) beside_[i] = beside_[j] = 1;
+    shifted_.assign(step.bodies.count(), 0);
+    for (std::size_t b = 0; b < free_.shift.size(); ++b)
+      shifted_[b] = free_.shift[b].x != 0 || free_.shift[b].z != 0;
     resize_closely(contacts_.pairs, found.size());
-    TeamLoops(&team_).each(found.size(), [&](std::size_t begin, std::size_t end) {
+    loops().each(found.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t a = begin; a < end; ++a) contacts_.pairs[a] = found[order[a]];
-      place_pairs(step, beside_, std::span(contacts_.pairs).subspan(begin, end - begin));
+      place_pairs(step, beside_, shifted_, std::span(contacts_.pairs).subspan(begin, end - begin));
     });
   }
 
   /// Assembles the contact problem of the pairs and solves it from the impulses at hand.
   void solve(const StepInput& step, StepReport& report, Stopwatch& watch) {
     attract(step, free_, contacts_);
-    assemble(step, contacts_, TeamLoops(&team_), problem_);
+    assemble(step, contacts_, loops(), problem_);
     report.setup_seconds += watch.lap();
     report.contacts = problem_.contacts();
     const bool open = laws_.period.open() && laws_.period.open_z();  // else positions are those of images
@@ -196,17 +201,21 @@ class MoreauJean final : public Stepper {
     (void)watch.lap();
   }
 
+  void remember_in(ContactMemory& memory, double time_step) {
+    remember(order_.i(), order_.j(), order_.order(), solution_.impulses, time_step, loops(), memory);
+  }
+
   /// Takes pairs in that solved contacts have brought together, with the impulses so far.
   void take_in(const StepInput& step, std::span<const Candidate> missed) {
     const WorkMemory::Frame frame(&memory_);
     const auto order = order_.order();
     ContactMemory solved;
-    remember(contacts_.pairs, order, solution_.impulses, step.time_step, TeamLoops(&team_), solved);
+    remember_in(solved, step.time_step);
     std::vector<Candidate> pairs(contacts_.pairs.size() + missed.size());
     for (std::size_t a = 0; a < contacts_.pairs.size(); ++a) pairs[order[a]] = contacts_.pairs[a];
     const auto added = std::span(pairs).last(missed.size());
     std::copy(missed.begin(), missed.end(), added.begin());
-    place_pairs(step, beside_, added);
+    place_pairs(step, beside_, shifted_, added);
     std::inplace_merge(
         pairs.begin(), pairs.end() - missed.size(), pairs.end(),
         [](const Candidate& a, const Candidate& b) { return std::pair(a.i, a.j) < std::pair(b.i, b.j); });
@@ -222,10 +231,10 @@ class MoreauJean final : public Stepper {
   void strike(const StepInput& step, const MovingState& state, Stopwatch& watch, StepReport& report) {
     searched_.x = free_.x, searched_.z = free_.z;
     for (int searches = 1;; ++searches) {
-      if (searches > 1 && !strikes_again(step, state)) return;
       const auto loads = recollection_.loads(state.memory, dim, step.time_step);
-      impacts_.resolve({step, detection_.candidates(), loads, contacts_.wall_jumps},
-                       {state.bodies, free_.shift, contacts_});
+      const ImpactInput input{step, detection_.candidates(), loads, contacts_.wall_jumps};
+      if (searches > 1 && !impacts_.go_on(input)) return;
+      impacts_.resolve(input, {state.bodies, free_.shift, contacts_});
       if (step_energy_) step_energy_->strike(impacts_.struck(), impacts_.work(), *state.energy);
       report.impacts += impacts_.count();
       report.impacts_unresolved += impacts_.unresolved();
@@ -246,18 +255,6 @@ class MoreauJean final : public Stepper {
     std::vector<Candidate> added;
     for (const std::int32_t a : detection_.added()) added.push_back(found[a]);
     recollection_.find_added(memory, detection_.added(), added);
-  }
-
-  /// Whether any pair meets now, after impacts and another search: only one of a grain that they struck can.
-  bool strikes_again(const StepInput& step, const MovingState& state) {
-    if (!step.driven.empty()) return true;  // walls have been struck too
-    is_struck_.assign(step.bodies.count(), 0);
-    for (const StruckGrain& struck : impacts_.struck()) is_struck_[struck.grain] = 1;
-    pairs_of_struck_.clear();
-    for (const Candidate& pair : detection_.candidates())
-      if (is_struck_[pair.i] | (pair.j >= 0 ? is_struck_[pair.j] : 0)) pairs_of_struck_.push_back(pair);
-    const auto loads = recollection_.loads_of(pairs_of_struck_, state.memory, dim, step.time_step);
-    return impacts_.any({step, pairs_of_struck_, loads, contacts_.wall_jumps});
   }
 
   /// The grains that impacts have struck harder than the search for pairs allowed for; false if none.
@@ -312,6 +309,8 @@ class MoreauJean final : public Stepper {
     }
   }
 
+  PairBodies pair_bodies() const { return {problem_.W.i, problem_.W.j, problem_.W.fixed()}; }
+
   StepEnd end_of(const StepInput& step) const {
     const auto& changes = solution_.velocities.bodies;
     return {step, problem_.contacts() > 0 ? std::span<const BodyVelocity>(changes)
@@ -323,8 +322,8 @@ class MoreauJean final : public Stepper {
     const StepEnd end = end_of(step);
     const bool loaded = !end.changes.empty();
     const auto& changes = solution_.velocities.bodies;
-    find_flights(end, contacts_.pairs, flies_);
-    TeamLoops(&team_).each(bodies.count(), [&](std::size_t begin, std::size_t stop) {
+    find_flights(end, contacts_.pairs, pair_bodies(), flies_);
+    loops().each(bodies.count(), [&](std::size_t begin, std::size_t stop) {
       for (std::size_t b = begin; b < stop; ++b) {
         const Point shift = end.shift(b), d = end.displacement(b, flies_[b]), v = end.velocity(b);
         if constexpr (with_spin)
@@ -358,7 +357,7 @@ class MoreauJean final : public Stepper {
   /// The overlap that is left, which is then removed on positions alone. No grain ends beyond a segment.
   Overlap project(const MovingState& state, WallStep& walls, std::optional<LostGrain>& lost) {
     const WorkMemory::Frame frame(&memory_);
-    const MovedContacts contacts{contacts_.pairs, solution_.impulses, dim, problem_.W.plan};
+    const MovedContacts contacts{contacts_.pairs, pair_bodies(), solution_.impulses, dim, problem_.W.plan};
     const Crossings moved = crossings_.undo(walls, laws_.period, state.bodies);
     Overlap overlap =
         overlaps_.find(contacts, state.bodies, walls, laws_.period, laws_.detection_margin, lost);
@@ -380,8 +379,9 @@ class MoreauJean final : public Stepper {
   ThreadTeam team_;
   WorkMemory memory_;  // of one phase of a step after the other
   FreeMotion free_;
-  std::vector<char> flies_;   // of each grain: no contact acts
-  std::vector<char> beside_;  // of each grain: it has a pair with another
+  std::vector<char> flies_;    // of each grain: no contact acts
+  std::vector<char> beside_;   // of each grain: it has a pair with another
+  std::vector<char> shifted_;  // of each grain: an impact moved the beginning of its path
   MissedPairs missed_;
   std::vector<std::pair<std::int32_t, Point>> lone_;  // grains on one wall, and where their step ends
   FreeMotion searched_;             // velocities by which pairs were last looked for, grain by grain
@@ -390,8 +390,6 @@ class MoreauJean final : public Stepper {
   ContactOrder order_;
   StepContacts contacts_;
   Impacts impacts_;
-  std::vector<char> is_struck_;  // of each grain, within strikes_again() alone
-  std::vector<Candidate> pairs_of_struck_;
   Recollection recollection_;
   Problem problem_;
   SolverWorkspace<Problem> work_;

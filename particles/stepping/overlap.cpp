@@ -57,23 +57,23 @@ OverlapSums OverlapSearch::overlaps_among(std::size_t begin, std::size_t end, co
       std::lower_bound(starts.begin(), starts.end(), static_cast<std::int32_t>(begin)) - starts.begin();
   ClosePair* close = &pairs_[begin];
   const double *const x = bodies.x.data(), *const z = bodies.z.data(), *const radius = bodies.radius.data();
-  const Candidate* const pairs = contacts.pairs.data();
+  const auto [of_i, of_j, fixed] = contacts.bodies;
   const double* const impulses = contacts.impulses.data();
   const Period domain = period;
   for (std::size_t a = begin; a < end; ++a) {
     for (; starts[group] == static_cast<std::int32_t>(a); ++group)
       plan_.group_start[group] = static_cast<std::int32_t>(close - &pairs_[begin]);
-    const Candidate& pair = pairs[a];
-    ClosePair now{pair.i, pair.j, 0, 0, 0};
+    ClosePair now{of_i[a], of_j[a], 0, 0, 0};
     const bool loaded = impulses[contacts.dim * a] > 0;
-    if (now.j < 0) {
-      now.gap = gap_now(pair, bodies, walls.after, period, now.n_x, now.n_z);
+    if (now.j >= fixed) {
+      now.j = contacts.pairs[a].j;
+      now.gap = gap_now(contacts.pairs[a], bodies, walls.after, period, now.n_x, now.n_z);
       if (!sums.lost) sums.lost = lost_at_wall(now, loaded, bodies, walls, period);
     } else {
       const Point d = domain.nearest(Point{x[now.i] - x[now.j], z[now.i] - z[now.j]});
       now.gap = normal_of(d.x, d.z, now.n_x, now.n_z) - radius[now.i] - radius[now.j];
     }
-    const double depth = loaded ? std::max(0.0, -now.gap) : 0;
+    const double depth = loaded * std::max(0.0, -now.gap);  // without a branch
     sums.depths += depth;
     if (depth > sums.deepest) sums.deepest = depth, sums.i = now.i, sums.j = now.j;
     sums.loaded += loaded;

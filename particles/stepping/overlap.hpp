@@ -38,6 +38,7 @@ struct OverlapSums {
 /// Contacts of a step that has been solved and whose bodies have been moved.
 struct MovedContacts {
   std::span<const Candidate> pairs;
+  PairBodies bodies;
   std::span<const double> impulses;  ///< dim per pair, normal first
   int dim = 1;
   const SweepPlan& plan;  ///< of the pairs

@@ -5,15 +5,20 @@
 
 namespace drumlin::particles {
 
-void find_flights(const StepEnd& end, std::span<const Candidate> pairs, std::vector<char>& flies) {
+void find_flights(const StepEnd& end, std::span<const Candidate> pairs, const PairBodies& bodies,
+                  std::vector<char>& flies) {
   const std::size_t grains = end.step.bodies.count();
   flies.resize(grains);
   for (std::size_t b = 0; b < grains; ++b) flies[b] = !end.is_pushed(b);
   if (end.changes.empty()) return;
+  std::vector<std::size_t> of_flying;
+  for (std::size_t a = 0; a < pairs.size(); ++a)
+    if (bodies.j[a] < bodies.fixed && (flies[bodies.i[a]] | flies[bodies.j[a]]) != 0) of_flying.push_back(a);
   for (bool again = true; again;) {
     again = false;
-    for (const Candidate& pair : pairs) {
-      if (pair.j < 0 || flies[pair.i] == flies[pair.j]) continue;
+    for (const std::size_t a : of_flying) {
+      const Candidate& pair = pairs[a];
+      if (flies[pair.i] == flies[pair.j]) continue;
       const Point d_i = end.displacement(pair.i, flies[pair.i]),
                   d_j = end.displacement(pair.j, flies[pair.j]);
       const double h = end.step.time_step;

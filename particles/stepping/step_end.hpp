@@ -36,7 +36,8 @@ struct StepEnd {
 };
 
 /// Sets `flies` of each grain: those that no contact pushes, and whose flight does not end in a pushed one.
-void find_flights(const StepEnd& end, std::span<const Candidate> pairs, std::vector<char>& flies);
+void find_flights(const StepEnd& end, std::span<const Candidate> pairs, const PairBodies& bodies,
+                  std::vector<char>& flies);
 
 /// Finds pairs of grains that impacts and contacts have brought together and that the step did not take in;
 /// keeps workspace only.

@@ -17,6 +17,7 @@ namespace {
 struct Row {
   Bodies bodies;
   std::vector<Candidate> pairs;
+  std::vector<std::int32_t> i, j;
   std::vector<double> impulses;
   SweepPlan plan;
 
@@ -30,13 +31,15 @@ struct Row {
     }
     bodies.v_x = bodies.v_z = std::vector<double>(bodies.count(), 0);
     for (std::size_t k = 0; k < count; ++k) {
-      pairs.push_back({static_cast<std::int32_t>(k), static_cast<std::int32_t>(k + 1), 0, 0, 0, 0, 0});
+      i.push_back(static_cast<std::int32_t>(k)), j.push_back(static_cast<std::int32_t>(k + 1));
+      pairs.push_back({i.back(), j.back(), 0, 0, 0, 0, 0});
       impulses.push_back(k % 3 == 1 ? 1 : 0);
     }
     for (std::size_t first = 0; first < count; first += 37)
       plan.group_start.push_back(static_cast<std::int32_t>(first));
     plan.group_start.push_back(static_cast<std::int32_t>(count));
   }
+  PairBodies of() const { return {i, j, static_cast<std::int32_t>(bodies.count())}; }
 };
 
 void expect_found(const Row& row, ThreadTeam* team) {
@@ -45,7 +48,7 @@ void expect_found(const Row& row, ThreadTeam* team) {
   search.use(team);
   std::optional<LostGrain> lost;
   const Overlap overlap =
-      search.find({row.pairs, row.impulses, 1, row.plan}, row.bodies, WallStep{}, {}, margin, lost);
+      search.find({row.pairs, row.of(), row.impulses, 1, row.plan}, row.bodies, WallStep{}, {}, margin, lost);
   EXPECT_FALSE(lost);
   std::vector<ClosePair> close;
   std::vector<std::int32_t> earlier;  // close pairs before each pair
@@ -95,7 +98,7 @@ TEST(OverlapSearch, WithoutPairsFindsNothing) {
   OverlapSearch search;
   std::optional<LostGrain> lost;
   const Overlap overlap =
-      search.find({row.pairs, row.impulses, 1, row.plan}, row.bodies, WallStep{}, {}, 1e-3, lost);
+      search.find({row.pairs, row.of(), row.impulses, 1, row.plan}, row.bodies, WallStep{}, {}, 1e-3, lost);
   EXPECT_EQ(overlap.loaded, 0);
   EXPECT_EQ(search.close().count(), 0U);
   EXPECT_FALSE(search.close().overlap);
