@@ -118,7 +118,8 @@ std::string law_band_text(const FinishedFlow& flow) {
       band.draws, band.iterations, band.seconds);
   for (const Scalar& width : band.scalars.scalars)
     if (std::isfinite(width.value)) text += fmt::format(" {} +- {:.2g},", width.name, width.value);
-  return text + fmt::format(" v_x +- {:.2g} % (L2)\n", 100 * band.profile);
+  if (std::isfinite(band.profile)) text += fmt::format(" v_x +- {:.2g} % (L2)", 100 * band.profile);
+  return text + "\n";
 }
 
 std::string accuracy_text(const FinishedFlow& flow) {

@@ -1,5 +1,7 @@
 #include "continuum/model/flow_scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <numbers>
@@ -217,6 +219,22 @@ void refuse_keys_of_the_drum(const Document& document, const FlowScene& scene,
   if (scene.output.slice_width) refuse("output.slice_width");
 }
 
+// Below, p_min adds more than 10 % to the law's p: the flow would be one of p_min.
+constexpr double least_pressure = 3;  // of p_min
+
+void check_pressure(const Document& document, const FlowScene& scene, std::vector<InputProblem>& problems) {
+  const double least_pa = least_pressure * scene.regularisation.pressure * scales_of(scene).stress_Pa();
+  const auto check = [&](const auto* gap, const char* path) {
+    if (gap && gap->pressure_pa < least_pa)
+      problems.push_back(
+          problem_at(document, path, fmt::format("is {:g}", gap->pressure_pa),
+                     fmt::format(">= {:.3g}, {:g} times regularisation.pressure", least_pa, least_pressure)));
+  };
+  check(std::get_if<FlowPlaneShear>(&scene.geometry), "plane_shear.pressure_pa");
+  check(std::get_if<FlowChute>(&scene.geometry), "chute.pressure_pa");
+  check(std::get_if<FlowAnnulus>(&scene.geometry), "annulus.pressure_pa");
+}
+
 FlowScene scene_of(const Document& document) {
   std::vector<InputProblem> problems;
   FlowScene scene = read_keys<FlowScene>(document, problems);
@@ -229,6 +247,7 @@ FlowScene scene_of(const Document& document) {
       check_drum(document, scene, problems);
     else
       refuse_keys_of_the_drum(document, scene, problems);
+    check_pressure(document, scene, problems);
     if (const auto* ring = std::get_if<FlowAnnulus>(&scene.geometry);
         ring && ring->outer_radius_mm <= ring->inner_radius_mm)
       problems.push_back(

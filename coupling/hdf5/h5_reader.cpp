@@ -1,5 +1,6 @@
 #include "coupling/hdf5/h5_reader.hpp"
 
+#include <fmt/format.h>
 #include <hdf5.h>
 
 #include <cstring>
@@ -129,6 +130,15 @@ void refuse_outside(const H5Reader& reader, const std::string& name, std::int64_
                 std::to_string(low) + (endless ? " or more" : " to " + std::to_string(high)));
 }
 
+void refuse_outside(const H5Reader& reader, const std::string& name, double value, H5Range range) {
+  constexpr double most = 1e100;
+  const double least = range == H5Range::finite ? -most : 1 / most;
+  const bool may_be_0 = range != H5Range::above_0;
+  if ((value >= least && value <= most) || (may_be_0 && value == 0)) return;
+  reader.refuse(name, fmt::format("is {}", value),
+                fmt::format("finite, {}{:g} to {:g}", range == H5Range::from_0 ? "0 or " : "", least, most));
+}
+
 }  // namespace
 
 std::vector<double> H5Reader::doubles(const std::string& name) const {
@@ -148,6 +158,16 @@ double H5Reader::number(const std::string& name) const {
   if (values.size() != 1) refuse(name, "not a single number");
   return values[0];
 }
+std::vector<double> H5Reader::doubles(const std::string& name, H5Range range) const {
+  std::vector<double> values = doubles(name);
+  for (const double value : values) refuse_outside(*this, name, value, range);
+  return values;
+}
+double H5Reader::number(const std::string& name, H5Range range) const {
+  const double value = number(name);
+  refuse_outside(*this, name, value, range);
+  return value;
+}
 std::int64_t H5Reader::integer(const std::string& name) const {
   const auto values = longs(name);
   if (values.size() != 1) refuse(name, "not a single number");
@@ -164,7 +184,8 @@ std::vector<std::int32_t> H5Reader::ints(const std::string& name, std::int32_t l
   return values;
 }
 Scales H5Reader::scales() const {
-  return {number("scales/length_m"), number("scales/time_s"), number("scales/density_kg_m3")};
+  const auto scale = [this](const char* name) { return number(name, H5Range::above_0); };
+  return {scale("scales/length_m"), scale("scales/time_s"), scale("scales/density_kg_m3")};
 }
 std::string H5Reader::text(const std::string& name) const {
   const auto bytes = read_set<char>(*this, handles_->file->get(), name, H5T_NATIVE_UINT8, H5T_INTEGER);

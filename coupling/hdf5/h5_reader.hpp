@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "coupling/common/scales.hpp"
+#include "coupling/hdf5/h5_words.hpp"
 
 namespace drumlin {
 
@@ -32,6 +33,9 @@ class H5Reader {
   std::vector<std::int32_t> ints(const std::string& name) const;
   std::vector<std::int64_t> longs(const std::string& name) const;
   double number(const std::string& name) const;
+  /// Refuses numbers out of the range.
+  std::vector<double> doubles(const std::string& name, H5Range range) const;
+  double number(const std::string& name, H5Range range) const;
   std::int64_t integer(const std::string& name) const;
   /// Whole numbers within bounds, both included; refuses any other, before it is cut to another type.
   std::int64_t integer(const std::string& name, std::int64_t low,

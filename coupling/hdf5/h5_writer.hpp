@@ -6,19 +6,13 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "coupling/common/files/text_file.hpp"
 #include "coupling/common/scales.hpp"
+#include "coupling/hdf5/h5_words.hpp"
 
 namespace drumlin {
-
-/// What the numbers of a dataset are: its attributes `unit` ("1": none) and `description`, absent without
-/// one.
-struct H5Words {
-  std::string_view unit = {}, description = {};
-};
 
 /// What an HDF5 file in the making takes. Names are paths like "contacts/normal"; groups are made as needed.
 class H5Content {

@@ -1,8 +1,5 @@
 #include "particles/io/checkpoint_file.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <limits>
 #include <string_view>
 
@@ -59,10 +56,12 @@ void each_number_of_checkpoint(C& c, Visit visit) {
   auto& s = c.state;
   visit("state/step", s.step);
   visit("state/step_in_stage", s.step_in_stage);
-  visit("state/time_at_stage_start", s.time_at_stage_start, {"sqrt(d/g)", "start of the stage"});
-  visit("state/time_in_stage", s.time_in_stage, {"sqrt(d/g)", "since the start of the stage"});
+  visit("state/time_at_stage_start", s.time_at_stage_start,
+        {"sqrt(d/g)", "start of the stage", H5Range::from_0});
+  visit("state/time_in_stage", s.time_in_stage,
+        {"sqrt(d/g)", "since the start of the stage", H5Range::from_0});
   visit("state/snapshots", s.snapshots);
-  visit("memory/time_step", s.memory.time_step, {"sqrt(d/g)", "of the remembered impulses"});
+  visit("memory/time_step", s.memory.time_step, {"sqrt(d/g)", "of the remembered impulses", H5Range::from_0});
 }
 
 /// The accounts of the energy ledger that each scene has.
@@ -89,8 +88,9 @@ void each_array_of_checkpoint(C& c, Visit visit) {
   visit("bodies/v_x", b.v_x, {"sqrt(g d)", "velocity to the right"});
   visit("bodies/v_z", b.v_z, {"sqrt(g d)", "velocity upwards"});
   visit("bodies/spin", b.spin, {"sqrt(g/d)", "angular velocity, clockwise"});
-  visit("bodies/radius", b.radius, {"d", "radius"});
-  visit("bodies/inverse_mass", b.inverse_mass, {"1/(rho0 d^2)", "inverse of the mass per depth"});
+  visit("bodies/radius", b.radius, {"d", "radius", H5Range::above_0});
+  visit("bodies/inverse_mass", b.inverse_mass,
+        {"1/(rho0 d^2)", "inverse of the mass per depth", H5Range::above_0});
   visit("memory/impulse", c.state.memory.impulse, {"rho0 d^2 sqrt(g d)", "of the last step"});
 }
 
@@ -159,35 +159,35 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   in.require_format(checkpoint_format, ": start over, or go on with the version that wrote it");
   Checkpoint checkpoint;
   checkpoint.scene = in.text("scene");
-  each_number_of_checkpoint(checkpoint, [&in](const char* name, auto& value, H5Words = {}) {
+  each_number_of_checkpoint(checkpoint, [&in](const char* name, auto& value, H5Words words = {}) {
     const bool is_newer = name == std::string_view("totals/unresolved_impacts") ||
                           std::string_view(name).starts_with("totals/stage/");
     if (is_newer && !in.has(name)) return;  // of an older version
     if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>) {
-      value = in.number(name);
-      // Totals of steps that missed their tolerance may hold others.
-      if (!std::isfinite(value) && !std::string_view(name).starts_with("totals/"))
-        in.refuse(name, fmt::format("is {}", value), "a finite number");
+      // Totals of steps that missed their tolerance may hold any number.
+      value = std::string_view(name).starts_with("totals/") ? in.number(name) : in.number(name, words.range);
     } else {
       value = in.integer(name, 0);  // counters
     }
   });
-  each_array_of_checkpoint(checkpoint, [&in](const char* name, std::vector<double>& values, H5Words) {
-    values = in.doubles(name);
+  each_array_of_checkpoint(checkpoint, [&in](const char* name, std::vector<double>& values, H5Words words) {
+    values = in.doubles(name, words.range);
   });
   SimulationState& state = checkpoint.state;
   state.stage = static_cast<int>(in.integer("state/stage", 0, std::numeric_limits<int>::max()));
   state.memory.i = in.ints("memory/i");
   state.memory.j = in.ints("memory/j");
+  if (!state.memory.i.empty()) in.number("memory/time_step", H5Range::above_0);
   if (in.has("bodies/material"))
     for (const std::int32_t number : in.ints("bodies/material", 0, std::numeric_limits<std::uint8_t>::max()))
       state.bodies.material.push_back(static_cast<std::uint8_t>(number));
   if (in.has("energy")) {
     auto& energy = state.energy.emplace();
-    each_account_of_ledger(energy,
-                           [&in](const char* name, double& value, H5Words) { value = in.number(name); });
+    each_account_of_ledger(energy, [&in](const char* name, double& value, H5Words words) {
+      value = in.number(name, words.range);
+    });
     const auto read_work = [&in](const std::string& name, std::optional<double>& work) {
-      if (in.has("energy/" + name)) work = in.number("energy/" + name);
+      if (in.has("energy/" + name)) work = in.number("energy/" + name, H5Range::finite);
     };
     each_account(energy.effects, read_work);
     read_work("cell", energy.cell);
@@ -204,8 +204,8 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   const auto marks = in.integer("marks/count", 0);
   for (std::int64_t m = 0; m < marks; ++m) {
     const std::string name = "marks/" + std::to_string(m) + "/";
-    state.marks.push_back({in.integer(name + "snapshot_step"), in.number(name + "time"),
-                           in.doubles(name + "x"), in.doubles(name + "z")});
+    state.marks.push_back({in.integer(name + "snapshot_step", 0), in.number(name + "time", H5Range::from_0),
+                           in.doubles(name + "x", H5Range::finite), in.doubles(name + "z", H5Range::finite)});
   }
   return checkpoint;
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <limits>
 #include <span>
 
@@ -23,8 +22,8 @@ template <class Cell, class Visit>
 void each_number_of(Cell& cell, Visit visit) {
   visit("cell/middle_x", cell.middle_x, {"d", "middle"});
   visit("cell/middle_z", cell.middle_z, {"d", "middle"});
-  visit("cell/length_x", cell.length_x, {"d", "length"});
-  visit("cell/length_z", cell.length_z, {"d", "height"});
+  visit("cell/length_x", cell.length_x, {"d", "length", H5Range::above_0});
+  visit("cell/length_z", cell.length_z, {"d", "height", H5Range::above_0});
   visit("cell/offset", cell.offset, {"d", "displacement of the image above along x"});
   visit("cell/rate_x", cell.rate_x, {"sqrt(g/d)", "rate of its length"});
   visit("cell/rate_z", cell.rate_z, {"sqrt(g/d)", "rate of its height"});
@@ -36,11 +35,9 @@ void each_number_of(Cell& cell, Visit visit) {
 }  // namespace
 
 std::vector<double> rows_of(const H5Reader& in, const std::string& name, std::size_t columns) {
-  std::vector<double> values = in.doubles(name);
+  std::vector<double> values = in.doubles(name, H5Range::finite);
   if (values.size() % columns != 0)
     in.refuse(name, fmt::format("{} numbers", values.size()), fmt::format("rows of {}", columns));
-  for (const double value : values)
-    if (!std::isfinite(value)) in.refuse(name, fmt::format("is {}", value), "finite numbers");
   return values;
 }
 
@@ -84,13 +81,15 @@ void get_stage_changes(const H5Reader& in, Checkpoint& checkpoint) {
                                                             static_cast<std::int64_t>(EndedBy::outlet)))});
   }
   if (in.has("gravity"))
-    state.gravity = {in.number("gravity/acceleration_m_s2"), in.number("gravity/direction_deg")};
+    state.gravity = {in.number("gravity/acceleration_m_s2", H5Range::from_0),
+                     in.number("gravity/direction_deg", H5Range::finite)};
   if (in.has("cell"))
-    each_number_of(state.cell.emplace(),
-                   [&in](const char* name, double& number, H5Words) { number = in.number(name); });
+    each_number_of(state.cell.emplace(), [&in](const char* name, double& number, H5Words words) {
+      number = in.number(name, words.range);
+    });
   if (!in.has("loads")) return;
   checkpoint.walls_bytes = in.integer("loads/bytes", 0);
-  state.loads.emplace().time = in.number("loads/time");
+  state.loads.emplace().time = in.number("loads/time", H5Range::from_0);
   const auto rows = rows_of(in, "loads/walls", numbers_of_load);
   for (std::size_t at = 0; at < rows.size();)
     each_number(state.loads->walls.emplace_back(), [&](double& number) { number = rows[at++]; });

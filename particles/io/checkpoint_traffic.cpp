@@ -37,7 +37,7 @@ LeftGrains left_in(const H5Reader& in) {
     const std::string name = fmt::format("left/{}/", f);
     left.first.push_back({in.integer(name + "grain", 0),
                           static_cast<std::int32_t>(in.integer(name + "stage", 0, stages - 1)),
-                          in.number(name + "time")});
+                          in.number(name + "time", H5Range::from_0)});
   }
   return left;
 }
@@ -83,7 +83,7 @@ void get_traffic(const H5Reader& in, Checkpoint& checkpoint) {
     const std::string name = fmt::format("traffic/{}/", o);
     OutletState& outlet = traffic.outlets.emplace_back();
     outlet.times = rows_of(in, name + "times", 1);
-    outlet.mass = in.number(name + "mass");
+    outlet.mass = in.number(name + "mass", H5Range::from_0);
     outlet.at_stage_start = in.integer(name + "at_stage_start", 0, outlet.taken());
     const auto rows = rows_of(in, name + "waiting", columns_of_waiting);
     for (std::size_t at = 0; at < rows.size(); at += columns_of_waiting) {

@@ -1,10 +1,6 @@
 #include "particles/io/snapshot_file.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <functional>
 
 #include "coupling/common/errors.hpp"
@@ -21,16 +17,17 @@ const std::string snapshot_format = "drumlin-snapshot-1";
 template <class S, class Visit>
 void each_number_of_snapshot(S& s, Visit visit) {
   visit("time", s.time, {"sqrt(d/g)", "since the start"});
-  visit("time_step", s.time_step, {"sqrt(d/g)", "that led here"});
+  visit("time_step", s.time_step, {"sqrt(d/g)", "that led here", H5Range::from_0});
   visit("wall/angle", s.wall_angle, {"rad", "of the first wall that rotates, clockwise"});
   visit("wall/spin", s.wall_spin, {"sqrt(g/d)", "of the first wall that rotates, clockwise"});
   visit("container/x", s.container_x, {"d", "middle of the first circular container"});
   visit("container/z", s.container_z, {"d", "middle of the first circular container"});
-  visit("container/radius", s.container_radius, {"d", "0: no circular container"});
+  visit("container/radius", s.container_radius, {"d", "0: no circular container", H5Range::from_0});
   visit("gravity_x", s.gravity_x, {"g", "body acceleration"});
   visit("gravity_z", s.gravity_z, {"g", "body acceleration"});
-  visit("velocity_window", s.velocity_window, {"sqrt(d/g)", "time that the displacements cover"});
-  visit("period_x", s.period_x, {"d", "length of a periodic domain; 0: open"});
+  visit("velocity_window", s.velocity_window,
+        {"sqrt(d/g)", "time that the displacements cover", H5Range::from_0});
+  visit("period_x", s.period_x, {"d", "length of a periodic domain; 0: open", H5Range::from_0});
 }
 
 /// The same of a cell.
@@ -38,7 +35,7 @@ template <class Cell, class Visit>
 void each_number_of_cell(Cell& cell, Visit visit) {
   visit("cell/x", cell.x, {"d", "lower left corner"});
   visit("cell/z", cell.z, {"d", "lower left corner"});
-  visit("cell/height", cell.height, {"d", "height"});
+  visit("cell/height", cell.height, {"d", "height", H5Range::above_0});
   visit("cell/offset", cell.offset, {"d", "displacement of the image above along x"});
   visit("cell/rate_x", cell.rate_x, {"sqrt(g/d)", "rate of its length"});
   visit("cell/rate_z", cell.rate_z, {"sqrt(g/d)", "rate of its height"});
@@ -53,12 +50,12 @@ void each_array_of_grains(S& s, Visit visit) {
   visit("grains/z", s.z, {"d", "centre, upwards"});
   visit("grains/v_x", s.v_x, {"sqrt(g d)", "velocity to the right"});
   visit("grains/v_z", s.v_z, {"sqrt(g d)", "velocity upwards"});
-  visit("grains/radius", s.radius, {"d", "radius"});
+  visit("grains/radius", s.radius, {"d", "radius", H5Range::above_0});
 }
 template <class S, class Visit>
 void each_further_array_of_grains(S& s, Visit visit) {
   visit("grains/spin", s.spin, {"sqrt(g/d)", "angular velocity, clockwise"});
-  visit("grains/mass", s.mass, {"rho0 d^2", "mass per depth"});
+  visit("grains/mass", s.mass, {"rho0 d^2", "mass per depth", H5Range::above_0});
   visit("grains/displacement_x", s.displacement_x, {"d", "to the right, over the velocity window"});
   visit("grains/displacement_z", s.displacement_z, {"d", "upwards, over the velocity window"});
 }
@@ -86,29 +83,21 @@ void add_contacts(const Snapshot& s, H5Writer& out) {
   add("contacts/impulse_t", &SnapshotContact::impulse_t, {unit, "on i along (n_z, -n_x)"});
 }
 
-/// Refuses what no step leaves, whatever the checksum says.
-template <class Values>
-void require_finite(const H5Reader& in, const char* name, const Values& values) {
-  for (const double value : values)
-    if (!std::isfinite(value)) in.refuse(name, fmt::format("holds {}", value), "finite numbers");
-}
-
 void read_contacts(const H5Reader& in, Snapshot& s) {
   const auto i = in.ints("contacts/i"), j = in.ints("contacts/j");
-  const auto n_x = in.floats("contacts/normal_x"), n_z = in.floats("contacts/normal_z");
-  const auto r_n = in.doubles("contacts/impulse_n"), r_t = in.doubles("contacts/impulse_t");
+  const auto numbers = [&in](const char* name) { return in.doubles(name, H5Range::finite); };
+  const auto n_x = numbers("contacts/normal_x"), n_z = numbers("contacts/normal_z");
+  const auto r_n = numbers("contacts/impulse_n"), r_t = numbers("contacts/impulse_t");
   for (const std::size_t size : {j.size(), n_x.size(), n_z.size(), r_n.size(), r_t.size()})
     if (size != i.size()) in.refuse("contacts", "arrays of unequal length");
-  require_finite(in, "contacts/normal_x", n_x), require_finite(in, "contacts/normal_z", n_z);
-  require_finite(in, "contacts/impulse_n", r_n), require_finite(in, "contacts/impulse_t", r_t);
-  if (!i.empty() && !(s.time_step > 0))
-    in.refuse("time_step", fmt::format("is {}", s.time_step), "above 0 where there are contacts");
+  if (!i.empty()) in.number("time_step", H5Range::above_0);
   const auto bodies = static_cast<std::int32_t>(s.x.size());
   s.contacts.reserve(i.size());
   for (std::size_t c = 0; c < i.size(); ++c) {
     if (i[c] < 0 || i[c] >= bodies || j[c] >= bodies)
       in.refuse("contacts", "names a grain that does not exist");
-    s.contacts.push_back({i[c], j[c], n_x[c], n_z[c], r_n[c], r_t[c]});
+    s.contacts.push_back(
+        {i[c], j[c], static_cast<float>(n_x[c]), static_cast<float>(n_z[c]), r_n[c], r_t[c]});
   }
 }
 
@@ -144,17 +133,15 @@ Snapshot read_snapshot(const std::filesystem::path& file) {
   const H5Reader in(file);
   in.require_format(snapshot_format);
   Snapshot s;
-  s.step = in.integer("step");
-  const auto number = [&in](const char* name, double& value, H5Words) {
-    value = in.number(name);
-    require_finite(in, name, std::array{value});
+  s.step = in.integer("step", 0);
+  const auto number = [&in](const char* name, double& value, H5Words words) {
+    value = in.number(name, words.range);
   };
   each_number_of_snapshot(s, number);
   s.scales = in.scales();
-  const auto per_grain = [&](const char* name, std::vector<double>& values, H5Words) {
-    values = in.doubles(name);
+  const auto per_grain = [&](const char* name, std::vector<double>& values, H5Words words) {
+    values = in.doubles(name, words.range);
     if (values.size() != s.x.size()) in.refuse(name, "not one entry per grain");
-    require_finite(in, name, values);
   };
   each_array_of_grains(s, per_grain);
   each_further_array_of_grains(s, [&](const char* name, auto& values, H5Words words) {
@@ -167,10 +154,9 @@ Snapshot read_snapshot(const std::filesystem::path& file) {
       in.refuse("grains/id", "not ascending");
   }
   if (in.has("walls/angle"))
-    each_array_of_walls(s, [&](const char* name, std::vector<double>& values, H5Words) {
-      values = in.doubles(name);
+    each_array_of_walls(s, [&](const char* name, std::vector<double>& values, H5Words words) {
+      values = in.doubles(name, words.range);
       if (values.size() != s.wall_pose_angle.size()) in.refuse("walls", "arrays of unequal length");
-      require_finite(in, name, values);
     });
   if (in.has("walls/open")) s.wall_open = in.ints("walls/open", 0, 1);
   if (in.has("cell")) each_number_of_cell(s.cell.emplace(), number);

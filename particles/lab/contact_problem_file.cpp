@@ -64,9 +64,7 @@ std::vector<double> vector_of(const H5Reader& in, const std::string& name, std::
 
 std::optional<double> time_step_of(const H5Reader& in) {
   if (!in.has(time_step_name)) return std::nullopt;
-  const double step = in.number(time_step_name);
-  if (!(step > 0 && std::isfinite(step))) in.refuse(time_step_name, "must be positive");
-  return step;
+  return in.number(time_step_name, H5Range::above_0);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ std::string to_string(LostGrain::How how) {
 }
 
 bool has_left(const Shape& wall, double radius, double gap) {
-  return std::holds_alternative<Container>(wall) && gap < -radius;
+  return std::holds_alternative<Container>(wall) && !(gap >= -radius);
 }
 
 bool pushed_too_far(const Shape& wall, const Pose& step, Point grain, Point normal, double radius) {

@@ -7,7 +7,6 @@ namespace drumlin::particles {
 
 MovingArc::MovingArc(const WallStep& walls, std::size_t shape)
     : was_(std::get<Arc>(walls.before[shape])),
-      is_(std::get<Arc>(walls.after[shape])),
       step_(walls.displacement[shape]),
       there_(step_),
       back_(inverse(step_)),
@@ -53,12 +52,6 @@ double MovingArc::move_across(const WallPath& path) const {
   const Point p = at(was_, path.from.along), then = there_.moved(p);
   return std::abs((then.x - p.x) * (p.x - was_.center.x) + (then.z - p.z) * (p.z - was_.center.z)) /
          was_.radius;
-}
-
-Reaches MovingArc::reaches() const {
-  const Reaches a = reaches_of(was_), b = reaches_of(is_);
-  return {std::min(a.x_low, b.x_low), std::max(a.x_high, b.x_high), std::min(a.z_low, b.z_low),
-          std::max(a.z_high, b.z_high)};
 }
 
 }  // namespace drumlin::particles

@@ -23,18 +23,13 @@ class MovingArc {
   /// How far the arc moves across itself where a path begins.
   double move_across(const WallPath& path) const;
 
-  /// Where it is over the step.
-  Reaches reaches() const;
-  /// Bound on how far one of its points moves.
-  double furthest() const { return largest_move(was_, step_); }
-  double turns_by() const { return step_.angle; }
   bool meets(std::size_t grain) const { return step_.meets(static_cast<std::int32_t>(grain)); }
 
  private:
   std::optional<WallPath> crossing_of(Point start, Point end, double image) const;
   WallPosition place_of(Point p) const;
 
-  Arc was_, is_;
+  Arc was_;
   ShapeStep step_;
   Rigid there_, back_;
   double middle_;

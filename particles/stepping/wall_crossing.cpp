@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 #include <variant>
 
 #include "particles/stepping/moving_arc.hpp"
@@ -18,7 +20,6 @@ class MovingSegment {
  public:
   MovingSegment(const WallStep& walls, std::size_t shape)
       : was_(std::get<Segment>(walls.before[shape])),
-        is_(std::get<Segment>(walls.after[shape])),
         step_(walls.displacement[shape]),
         there_(step_),
         back_(inverse(step_)),
@@ -52,15 +53,6 @@ class MovingSegment {
     return std::abs(e_x_ * (then.z - p.z) - e_z_ * (then.x - p.x)) / length_;
   }
 
-  /// Where it is over the step.
-  Reaches reaches() const {
-    const auto [x_low, x_high] = std::minmax({was_.from.x, was_.to.x, is_.from.x, is_.to.x});
-    const auto [z_low, z_high] = std::minmax({was_.from.z, was_.to.z, is_.from.z, is_.to.z});
-    return {x_low, x_high, z_low, z_high};
-  }
-  /// Bound on how far one of its points moves.
-  double furthest() const { return largest_move(was_, step_); }
-  double turns_by() const { return step_.angle; }
   bool meets(std::size_t grain) const { return step_.meets(static_cast<std::int32_t>(grain)); }
 
  private:
@@ -78,7 +70,7 @@ class MovingSegment {
     return {(d_x * e_x_ + d_z * e_z_) / (length_ * length_), (e_x_ * d_z - e_z_ * d_x) / length_};
   }
 
-  Segment was_, is_;
+  Segment was_;
   ShapeStep step_;
   Rigid there_, back_;
   double e_x_, e_z_, length_, middle_;
@@ -94,61 +86,47 @@ std::optional<WallPath> crossing(const MovingWall& wall, std::size_t b, Point st
                     wall);
 }
 
-/// Calls `visit(b)` for every disc that can have crossed the wall if none has moved further than `furthest`
-/// along an axis.
-template <class Visit>
-void each_near(const MovingWall& moving, const Bodies& bodies, const Period& period, double furthest,
-               Visit visit) {
-  const auto [box, reach] = std::visit(
-      [furthest](const auto& wall) {
-        // Straight seen from a wall that turns is bent by at most a quarter of its angle on the relative
-        // path.
-        const double bend = std::abs(wall.turns_by()) / 4 * (2 * furthest + wall.furthest());
-        return std::pair(wall.reaches(), furthest + bend);
-      },
-      moving);
-  const bool anywhere = !period.open();
-  for (std::size_t b = 0; b < bodies.count(); ++b)
-    if (bodies.z[b] >= box.z_low - reach && bodies.z[b] <= box.z_high + reach &&
-        (anywhere || (bodies.x[b] >= box.x_low - reach && bodies.x[b] <= box.x_high + reach)))
-      visit(b);
+MovingWall moving_wall(const WallStep& walls, std::size_t shape) {
+  if (std::holds_alternative<Segment>(walls.before[shape])) return MovingSegment(walls, shape);
+  return MovingArc(walls, shape);
+}
+
+/// Where discs end a step that may have crossed a thin wall, if none has moved further than `furthest` along
+/// an axis.
+Reaches ends_of_paths(const WallStep& walls, std::size_t shape, const Period& period, double furthest) {
+  const auto reaches_at = [&](const Shape& wall) {
+    if (const auto* arc = std::get_if<Arc>(&wall)) return reaches_of(*arc);
+    const auto& s = std::get<Segment>(wall);
+    const auto [x_low, x_high] = std::minmax(s.from.x, s.to.x);
+    const auto [z_low, z_high] = std::minmax(s.from.z, s.to.z);
+    return Reaches{x_low, x_high, z_low, z_high};
+  };
+  const Reaches was = reaches_at(walls.before[shape]), is = reaches_at(walls.after[shape]);
+  const ShapeStep& step = walls.displacement[shape];
+  // Straight seen from a wall that turns is bent by at most a quarter of its angle on the relative path.
+  const double bend =
+      step.angle == 0 ? 0
+                      : std::abs(step.angle) / 4 * (2 * furthest + largest_move(walls.before[shape], step));
+  const double reach = furthest + bend, anywhere = std::numeric_limits<double>::infinity();
+  return {period.open() ? std::min(was.x_low, is.x_low) - reach : -anywhere,
+          period.open() ? std::max(was.x_high, is.x_high) + reach : anywhere,
+          std::min(was.z_low, is.z_low) - reach, std::max(was.z_high, is.z_high) + reach};
 }
 
 /// The wall that a disc meets first on its path, with that path.
 struct FirstCrossing {
-  const MovingWall* wall = nullptr;
+  MovingWall wall;
   WallPath path;
 };
-FirstCrossing first_crossing(std::span<const MovingWall> walls, std::size_t b, Point start, Point end,
-                             const Period& period) {
-  FirstCrossing first;
-  for (const MovingWall& wall : walls)
+std::optional<FirstCrossing> first_crossing(const WallStep& walls, std::span<const std::size_t> shapes,
+                                            std::size_t b, Point start, Point end, const Period& period) {
+  std::optional<FirstCrossing> first;
+  for (const std::size_t shape : shapes) {
+    const MovingWall wall = moving_wall(walls, shape);
     if (const auto path = crossing(wall, b, start, end, period))
-      if (!first.wall || path->share < first.path.share) first = {&wall, *path};
-  return first;
-}
-
-/// Lays disc b back from every thin wall that it crossed since it stood at `start`.
-void put_back(std::span<const MovingWall> walls, const Period& period, Point start, std::size_t b,
-              Bodies& bodies, Crossings& crossings) {
-  const auto lose = [&](LostGrain::How how) {
-    if (!crossings.lost) crossings.lost = LostGrain{static_cast<int>(b), bodies.x[b], bodies.z[b], how};
-  };
-  const double radius = bodies.radius[b];
-  for (int attempt = 0;; ++attempt) {
-    const auto [wall, path] = first_crossing(walls, b, start, {bodies.x[b], bodies.z[b]}, period);
-    if (!wall) return;
-    crossings.deepest = std::max(crossings.deepest, radius + std::abs(path.to.across));
-    const auto of_wall = [wall = wall](auto act) { return std::visit(act, *wall); };
-    if (of_wall([path = path](const auto& w) { return w.move_across(path); }) > radius)
-      return lose(LostGrain::How::pushed_too_far);
-    if (attempt > most_walls) return lose(LostGrain::How::went_through_wall);
-    // Where walls leave no room for it, it keeps its position beside one of them.
-    const Point place = of_wall([&, path = path](const auto& w) {
-      return attempt < most_walls ? w.put_back(path, radius) : w.carried(start);
-    });
-    bodies.x[b] = place.x, bodies.z[b] = place.z;
+      if (!first || path->share < first->path.share) first.emplace(FirstCrossing{wall, *path});
   }
+  return first;
 }
 
 /// Lays disc b, whose centre stands outside of a container, back into it if it began the step inside and has
@@ -170,6 +148,16 @@ void put_inside(const Container& was, const Container& is, const Period& period,
 struct Discs {
   std::vector<std::size_t> list;
   void add(const Discs& more) { list.insert(list.end(), more.list.begin(), more.list.end()); }
+};
+
+/// Thin walls and discs that may have crossed them; how many boxes were looked at for it.
+struct NearWalls {
+  std::vector<std::pair<std::size_t, std::size_t>> list;
+  std::int64_t looked_at = 0;
+  void add(const NearWalls& more) {
+    list.insert(list.end(), more.list.begin(), more.list.end());
+    looked_at += more.looked_at;
+  }
 };
 
 }  // namespace
@@ -225,23 +213,61 @@ void WallCrossings::undo_at_containers(const WallStep& walls, const Period& peri
 
 void WallCrossings::undo_at_thin_walls(const WallStep& walls, const Period& period, Bodies& bodies,
                                        Crossings& crossings) {
-  double furthest = 0;
+  furthest_ = 0;
   for (std::size_t b = 0; b < bodies.count(); ++b)
-    furthest = std::max({furthest, std::abs(bodies.x[b] - x_[b]), std::abs(bodies.z[b] - z_[b])});
-  std::vector<MovingWall> moving;
-  for (const std::size_t shape : thin_)
-    if (std::holds_alternative<Segment>(walls.before[shape]))
-      moving.emplace_back(MovingSegment(walls, shape));
-    else
-      moving.emplace_back(MovingArc(walls, shape));
+    furthest_ = std::max({furthest_, std::abs(bodies.x[b] - x_[b]), std::abs(bodies.z[b] - z_[b])});
+  boxes_.clear();
+  for (const std::size_t shape : thin_) boxes_.push_back(ends_of_paths(walls, shape, period, furthest_));
+  tree_.plant(boxes_);
+  auto near = loops_.combined<NearWalls>(bodies.count(), [&](std::size_t begin, std::size_t end) {
+    NearWalls some;
+    for (std::size_t b = begin; b < end; ++b)
+      some.looked_at += tree_.each_near({bodies.x[b], bodies.z[b]}, 0,
+                                        [&](std::size_t k) { some.list.emplace_back(thin_[k], b); });
+    return some;
+  });
+  looked_at_ = near.looked_at;
+  std::sort(near.list.begin(), near.list.end());
   crossed_.clear();
-  for (const MovingWall& wall : moving)
-    each_near(wall, bodies, period, furthest, [&](std::size_t b) {
-      if (crossing(wall, b, {x_[b], z_[b]}, {bodies.x[b], bodies.z[b]}, period)) crossed_.push_back(b);
-    });
+  std::optional<MovingWall> wall;
+  for (std::size_t k = 0; k < near.list.size(); ++k) {
+    const auto [shape, b] = near.list[k];
+    if (k == 0 || shape != near.list[k - 1].first) wall.emplace(moving_wall(walls, shape));
+    if (crossing(*wall, b, {x_[b], z_[b]}, {bodies.x[b], bodies.z[b]}, period)) crossed_.push_back(b);
+  }
   std::sort(crossed_.begin(), crossed_.end());
   crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
-  for (const std::size_t b : crossed_) put_back(moving, period, {x_[b], z_[b]}, b, bodies, crossings);
+  for (const std::size_t b : crossed_) put_back(walls, period, b, bodies, crossings);
+}
+
+void WallCrossings::put_back(const WallStep& walls, const Period& period, std::size_t b, Bodies& bodies,
+                             Crossings& crossings) const {
+  const Point start{x_[b], z_[b]};
+  const auto lose = [&](LostGrain::How how) {
+    if (!crossings.lost) crossings.lost = LostGrain{static_cast<int>(b), bodies.x[b], bodies.z[b], how};
+  };
+  const double radius = bodies.radius[b];
+  for (int attempt = 0;; ++attempt) {
+    const Point end{bodies.x[b], bodies.z[b]};
+    // Laid back, it may be further from its start than any was: the path, and its bend, are longer.
+    const double longer = std::max(std::abs(end.x - start.x), std::abs(end.z - start.z)) - furthest_;
+    std::vector<std::size_t> shapes;
+    tree_.each_near(end, 2 * std::max(0.0, longer), [&](std::size_t k) { shapes.push_back(thin_[k]); });
+    std::sort(shapes.begin(), shapes.end());
+    const auto first = first_crossing(walls, shapes, b, start, end, period);
+    if (!first) return;
+    const auto& [wall, path] = *first;
+    crossings.deepest = std::max(crossings.deepest, radius + std::abs(path.to.across));
+    const auto of_wall = [&wall = wall](auto act) { return std::visit(act, wall); };
+    if (of_wall([&path = path](const auto& w) { return w.move_across(path); }) > radius)
+      return lose(LostGrain::How::pushed_too_far);
+    if (attempt > most_walls) return lose(LostGrain::How::went_through_wall);
+    // Where walls leave no room for it, it keeps its position beside one of them.
+    const Point place = of_wall([&, &path = path](const auto& w) {
+      return attempt < most_walls ? w.put_back(path, radius) : w.carried(start);
+    });
+    bodies.x[b] = place.x, bodies.z[b] = place.z;
+  }
 }
 
 }  // namespace drumlin::particles

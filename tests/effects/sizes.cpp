@@ -195,6 +195,32 @@ TEST(WallCrossing, InACornerEndsWithinBothWalls) {
   }
 }
 
+TEST(WallCrossing, OfManySidesLooksAtThoseNearby) {
+  // Of 400 discs in rings one leaves the polygon, and is laid back.
+  const auto looked_at = [](int sides) {
+    const auto corner = [&](int k) {
+      const double angle = 2 * std::numbers::pi * k / sides;
+      return Point{30 * std::cos(angle), 30 * std::sin(angle)};
+    };
+    std::vector<Shape> walls;
+    for (int k = 0; k < sides; ++k) walls.emplace_back(Segment{corner(k), corner(k + 1)});
+    const WallStep step{walls, walls, std::vector<ShapeStep>(walls.size())};
+    Bodies bodies;
+    for (int k = 0; k < 400; ++k) {
+      const double distance = 29.4 - 1.1 * (k / 160), angle = 2 * std::numbers::pi * (k % 160 + 0.25) / 160;
+      add_body(bodies, distance * std::cos(angle), distance * std::sin(angle), 0.5);
+    }
+    WallCrossings crossings;
+    crossings.begin(bodies, step.before);
+    bodies.x[0] += 0.7;
+    EXPECT_NEAR(crossings.undo(step, {}, bodies).deepest, 0.6, 0.05) << sides;
+    EXPECT_NEAR(std::hypot(bodies.x[0], bodies.z[0]), 29.5, 0.05);
+    return crossings.looked_at();
+  };
+  const auto few = looked_at(100), many = looked_at(10000);
+  EXPECT_LT(many, 10 * few);
+}
+
 TEST(WallCrossing, OfAContainerIsUndoneUnlessTheDiscFlewOut) {
   const Container drum{{0, 0}, 5};
   const WallStep step{{drum}, {drum}, {Pose{}}};

@@ -89,7 +89,12 @@ TEST(SnapshotFile, ValuesThatNoStepLeavesAreRefused) {
       [&](Snapshot& s) { s.time = HUGE_VAL; },
       [&](Snapshot& s) { s.wall_pose_x[1] = nan; },
       [&](Snapshot& s) { s.contacts[0].impulse_n = HUGE_VAL; },
-      [&](Snapshot& s) { s.time_step = 0; }};
+      [&](Snapshot& s) { s.time_step = 0; },
+      [&](Snapshot& s) { s.contacts.clear(), s.time_step = 5e-324; },
+      [&](Snapshot& s) { s.radius[1] = -0.5; },
+      [&](Snapshot& s) { s.velocity_window = -0.3; },
+      [&](Snapshot& s) { s.scales.time_s = 0; },
+      [&](Snapshot& s) { s.step = -1; }};
   for (std::size_t k = 0; k < spoilt.size(); ++k) {
     Snapshot s = some_snapshot();
     spoilt[k](s);
