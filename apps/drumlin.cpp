@@ -35,7 +35,6 @@ struct Execute {
   int operator()(const apps::AcceptOptions& options) const { return apps::accept(options); }
   int operator()(const apps::CostOptions& options) const { return apps::cost(options); }
   int operator()(const apps::SolveContactsOptions& options) const { return apps::solve_contacts(options); }
-  int operator()(const apps::HardcasesOptions& options) const { return apps::hardcases(options); }
 };
 
 /// Whether the results of a command are files: it then finishes them although nobody reads what it prints.
@@ -45,7 +44,6 @@ struct LeavesFiles {
   bool operator()(const apps::ImportOptions& options) const { return !options.keys; }
   bool operator()(const apps::CostOptions& options) const { return options.output.has_value(); }
   bool operator()(const apps::SolveContactsOptions& options) const { return options.output.has_value(); }
-  bool operator()(const apps::HardcasesOptions& options) const { return options.output.has_value(); }
   template <class Other>
   bool operator()(const Other&) const {
     return true;

@@ -112,10 +112,6 @@ class CommandLine {
         add_command("cost", "What accuracy costs in a scene, or its effects (docs/cost.md)", cost_), cost_);
     add_accept_options(add_command("accept", "Takes a result folder as it is after an edit by hand", accept_),
                        accept_);
-    add_hardcases_options(
-        add_command("hardcases", "Runs cases with known outcomes through the engine (docs/hard-cases.md)",
-                    hardcases_),
-        hardcases_);
     for (CLI::App* command : app_.get_subcommands({}))
       if (CLI::Option* output = command->get_option_no_throw("--output")) output->transform(linked_folder);
   }
@@ -234,7 +230,6 @@ class CommandLine {
   SolveContactsOptions solve_contacts_;
   CostOptions cost_;
   AcceptOptions accept_;
-  HardcasesOptions hardcases_;
   std::function<Request()> request_;
 };
 

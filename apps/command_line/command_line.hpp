@@ -16,7 +16,7 @@ struct TextToShow {
 
 using Request = std::variant<TextToShow, RunOptions, MeasureOptions, ImportOptions, CalibrateOptions,
                              FlowOptions, CompareOptions, SceneOptions, SolveContactsOptions, PlotOptions,
-                             CostOptions, ExportOptions, HardcasesOptions, StudyOptions, CompareStudyOptions,
+                             CostOptions, ExportOptions, StudyOptions, CompareStudyOptions,
                              ScoreOptions, AcceptOptions, HistoryOptions, ReportOptions, NewSceneOptions>;
 
 /// Throws InputError on wrong usage. `solvers` are the names that --solver takes.

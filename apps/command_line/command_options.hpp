@@ -23,7 +23,6 @@ void add_export_options(CLI::App& command, ExportOptions& options);
 void add_history_options(CLI::App& command, HistoryOptions& options);
 void add_solve_contacts_options(CLI::App& command, SolveContactsOptions& options,
                                 const std::vector<std::string>& solvers);
-void add_hardcases_options(CLI::App& command, HardcasesOptions& options);
 void add_calibrate_options(CLI::App& command, CalibrateOptions& options);
 void add_flow_options(CLI::App& command, FlowOptions& options);
 /// Either a pair is compared, or all speeds of both sides are.

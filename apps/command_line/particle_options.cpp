@@ -222,17 +222,4 @@ void add_solve_contacts_options(CLI::App& command, SolveContactsOptions& options
   command.add_flag("--json", options.json, "Prints status, residual, residual_max, sweeps, seconds as JSON");
 }
 
-void add_hardcases_options(CLI::App& command, HardcasesOptions& options) {
-  command.add_option("names", options.names, "Cases; all of them if none is named")->type_name("NAME");
-  command.add_flag("--fast", options.fast, "Only those that are part of ./check: quick, and known to hold");
-  command
-      .add_option_function<std::string>(
-          "-o,--output", [&options](const std::string& folder) { options.output = folder; },
-          "Folder for hardcases.json; none is written without")
-      ->type_name("DIR");
-  command.add_flag_callback(
-      "--overwrite", [&options] { options.existing = ExistingOutput::overwrite; },
-      "Replaces what an earlier call left");
-}
-
 }  // namespace drumlin::apps

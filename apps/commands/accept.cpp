@@ -27,7 +27,7 @@ constexpr std::pair<const char*, const char*> signs[] = {
     {"import.toml", "import"},   {"run.json", "run"},          {"flow.json", "flow"},
     {"flow_scene.toml", "flow"}, {"measured.json", "measure"}, {"comparison.json", "compare"},
     {"study.json", "study"},     {"cost.json", "cost"},        {"sweep.json", "cost"},
-    {"plots.json", "plot"},      {"grains.pvd", "export"},     {"hardcases.json", "hardcases"}};
+    {"plots.json", "plot"},      {"grains.pvd", "export"}};
 
 std::optional<std::string> command_of(const fs::path& folder) {
   for (const auto& [file, command] : signs)

@@ -1,12 +1,10 @@
 // drumlin-flow: the continuum solve as a program of its own, so that `drumlin` starts without loading
 // deal.II. It takes the words of `drumlin flow`, whose command line it shares; `drumlin-flow --keys
-// [--markdown]` lists the keys of a flow scene, `--version` says which program this is, `--hardcases` runs
-// cases for `drumlin hardcases`.
+// [--markdown]` lists the keys of a flow scene, `--version` says which program this is.
 #include <cstring>
 #include <vector>
 
 #include "apps/command_line/command_line.hpp"
-#include "apps/flow/flow_hardcases.hpp"
 #include "apps/flow/flow_run.hpp"
 #include "apps/output/program.hpp"
 #include "apps/process/interruption.hpp"
@@ -38,11 +36,6 @@ int solve(int argc, char** argv, bool& speaks) {
   if (argc > 1 && std::strcmp(argv[1], "--version") == 0) {
     apps::print_out("drumlin-flow " + version_text() + "\n");
     return static_cast<int>(ExitCode::done);
-  }
-  if (argc > 1 && std::strcmp(argv[1], "--hardcases") == 0) {
-    const continuum::FemRuntime runtime(argc, argv);
-    apps::end_at_signals();  // PETSc has set handlers of its own
-    return apps::flow_hardcases({argv + 2, argv + argc});
   }
   std::vector<const char*> words = {"drumlin", "flow"};
   words.insert(words.end(), argv + 1, argv + argc);

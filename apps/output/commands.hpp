@@ -232,13 +232,4 @@ struct CostOptions {
 };
 int cost(const CostOptions&);
 
-struct HardcasesOptions {
-  std::vector<std::string> names;  ///< none: all
-  bool fast = false;               ///< only those that are part of ./check
-  std::optional<std::filesystem::path> output;
-  ExistingOutput existing = ExistingOutput::refuse;
-};
-/// Runs cases with known outcomes; not_converged (3) if one fails.
-int hardcases(const HardcasesOptions&);
-
 }  // namespace drumlin::apps

@@ -16,7 +16,7 @@ import re
 import subprocess
 import sys
 
-TOPS = ("particles", "continuum", "coupling", "apps", "tests/hardcases")
+TOPS = ("particles", "continuum", "coupling", "apps")
 # Third-party headers that a public header may show to those who include it.
 PUBLIC_LIBRARIES = {"particles": ["Eigen/"], "apps": ["nlohmann/"], "coupling/documents": ["nlohmann/json_fwd.hpp"]}
 # Headers that only these folders may include, in any file.

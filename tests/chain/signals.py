@@ -52,7 +52,7 @@ def check_signals(executable, scene, problem, run, folder):
         require(read_json(stopped / "run.json")["status"] == "interrupted", f"run: status after {number.name}")
         require_whole_files(stopped)
     commands = [["measure", run, "--parts", "none"], ["plot", run], ["export", run, "--vtu"], ["history", run], ["cost", scene, "--effects", "-o", run / "cost"],
-                ["scene", "check", scene], ["hardcases", "--fast"], ["solve-contacts", problem, "--tolerance", "1e-12"]]
+                ["scene", "check", scene], ["solve-contacts", problem, "--tolerance", "1e-12"]]
     before = bytes_below(run)
     for words in commands:
         for step, (number, code) in enumerate(SIGNALS.items()):

@@ -39,7 +39,7 @@ def check_lost_output(executable, scene, problem, run):
     """Output that cannot be written is code 74, that nobody reads ends the command by SIGPIPE; no abort, no message without need."""
     printing = [["scene", "keys"], ["scene", "show", scene], ["scene", "check", scene], ["solve-contacts", problem, "--json"],
                 ["solve-contacts", problem], ["import", "--keys"], ["--help"], ["--version"], ["run", "--help"],
-                ["hardcases", "shaken"], ["run", scene, "-o", run, *SHORT_RUN, "--resume"], ["measure", run, "--parts", "none", "--resume"]]
+                ["run", scene, "-o", run, *SHORT_RUN, "--resume"], ["measure", run, "--parts", "none", "--resume"]]
     for words in printing:
         for streams in (">/dev/full", ">&-", ">&- 2>&-") if words == printing[0] else (">/dev/full",):
             result = by_shell(executable, words, streams)

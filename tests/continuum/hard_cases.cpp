@@ -1,4 +1,4 @@
-// The fast half of the continuum's rows in the table that `drumlin hardcases` shows.
+// The fast half of the continuum's rows in the table that flow_hard_cases shows.
 #include "tests/hardcases/registry.hpp"
 #include "tests/support/hard_case_tests.hpp"
 

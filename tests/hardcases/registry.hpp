@@ -1,5 +1,5 @@
 #pragma once
-// The registry of hard cases: one list per simulator, in the order in which `drumlin hardcases` shows them.
+// The registry of hard cases: one list per simulator, in the order in which the tables show them.
 #include <filesystem>
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace drumlin {
 
-/// The cases of the particles, run through the public engine. Library drumlin::particle_hard_cases.
+/// The cases of the particles, run through the public engine. Library drumlin::hard_cases.
 const std::vector<HardCase>& particle_hard_cases();
 
 /// The worst pair of each shipped scene of a folder. Same library.

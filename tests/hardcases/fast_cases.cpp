@@ -1,4 +1,4 @@
-// The fast half of the table that `drumlin hardcases` shows, one test per case, and what judges it.
+// The fast half of the table that hard_cases shows, one test per case, and what judges it.
 #include <cmath>
 
 #include "tests/hardcases/particles/trends.hpp"
