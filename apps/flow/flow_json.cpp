@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "apps/json/json_file.hpp"
-#include "continuum/rheology/ill_posed_ranges.hpp"
 #include "coupling/documents/json_numbers.hpp"
+#include "coupling/law/ill_posed.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -87,32 +87,33 @@ Json plain_json(const FinishedFlow& flow) {
           {"picard_change", flow.solution.report.picard_change}};
 }
 
-Json ill_posed_json(const continuum::FlowProblem& problem) {
+Json ill_posed_json(const FlowRequest& asked) {
   Json ranges = Json::array();
-  if (problem.threshold_fluidity) return ranges;  // short waves see a fluidity that stays
-  for (const InertialRange& range :
-       continuum::ill_posed_ranges(problem.law, problem.turned ? &problem.turned->k : nullptr))
-    ranges.push_back({range.from, range.to});
+  if (asked.flow_case.problem.threshold_fluidity) return ranges;  // short waves see a fluidity that stays
+  for (const InertialRange& range : ill_posed_intervals(asked.law)) ranges.push_back({range.from, range.to});
   return ranges;
 }
 
-// The keys of rheology.toml; those of the logarithm come without their "law", as before there were others.
-Json friction_json(const MeasuredFriction& mu) {
-  struct Keys {
-    Json operator()(const LogFriction& m) const {
-      return {{"a", m.a}, {"b", m.b}, {"I_min", m.I_min}, {"I_max", m.I_max}};
-    }
-    Json operator()(const LogLinearFriction& m) const {
-      return {{"law", "log-linear"}, {"a", m.a},        {"b", m.b}, {"c", m.c},
-              {"I_min", m.I_min},    {"I_max", m.I_max}};
-    }
-    Json operator()(const ConstantFriction& m) const { return {{"law", "constant"}, {"mu", m.mu}}; }
-    Json operator()(const JopFriction& m) const {
-      return {{"law", "jop"}, {"mu_s", m.mu_s}, {"mu_2", m.mu_2}, {"I_0", m.I_0}};
-    }
-    Json operator()(const FrictionTable& m) const { return {{"law", "table"}, {"I", m.I}, {"mu", m.mu}}; }
-  };
-  return std::visit(Keys{}, mu);
+struct JsonKeys {
+  Json& object;
+  void value(const std::string& key, const auto& value, const KeySpec&) { object[key] = value; }
+};
+
+// The keys of rheology.toml; those of the logarithm come without its name and covariance, as before there
+// were others.
+Json friction_json(const FrictionLaw& mu) {
+  return std::visit(
+      []<class Law>(Law law) {
+        Json json{{"law", Law::name}};
+        JsonKeys keys{json};
+        describe(keys, law);
+        if constexpr (std::is_same_v<Law, LogLaw>) {
+          json.erase("law");
+          json.erase("covariance");
+        }
+        return json;
+      },
+      mu);
 }
 
 Json settings_json(const FinishedFlow& flow) {
@@ -250,7 +251,7 @@ Json flow_json(const FinishedFlow& flow) {
   add_scalars(content, flow.asked.flow_case.given);
   content["ill_posed_share"] = flow.findings.ill_posed_share();
   content["beyond_law_share"] = flow.findings.beyond_law_share();
-  content["ill_posed_I"] = ill_posed_json(flow.asked.flow_case.problem);
+  content["ill_posed_I"] = ill_posed_json(flow.asked);
   if (flow.plain) content[flow.asked.law.k ? "without_k" : "without_nonlocal"] = plain_json(flow);
   content["unknowns"] = result.unknowns;
   content["iterations"] = report.iterations;

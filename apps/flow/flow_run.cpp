@@ -19,12 +19,12 @@
 #include "apps/process/standard_streams.hpp"
 #include "continuum/estimates/flow_limits.hpp"
 #include "continuum/fem/scene_options.hpp"
-#include "continuum/rheology/ill_posed_ranges.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/files/last_whole.hpp"
 #include "coupling/common/files/text_file.hpp"
 #include "coupling/common/machine/own_costs.hpp"
 #include "coupling/common/provenance.hpp"
+#include "coupling/law/ill_posed.hpp"
 #include "coupling/law/rheology_file.hpp"
 #include "coupling/results/measured_run.hpp"
 
@@ -106,10 +106,9 @@ FlowRequest read_request(const FlowOptions& options) {
 }
 
 // What is known to go wrong before anything is solved.
-std::string ill_posedness_text(const continuum::FlowProblem& problem) {
+std::string ill_posedness_text(const RheologyFit& law) {
   std::string text;
-  for (const InertialRange& range :
-       continuum::ill_posed_ranges(problem.law, problem.turned ? &problem.turned->k : nullptr))
+  for (const InertialRange& range : ill_posed_intervals(law))
     text += fmt::format("{} {:.2g} to {:.2g}", text.empty() ? "" : ",", range.from, range.to);
   if (text.empty()) return text;
   return fmt::format(
@@ -185,7 +184,7 @@ void begin_folder(FlowOutput& output, const FlowOptions& options, const FlowRequ
   print_out(fmt::format("{}{}: {}, nu = {:.3f}, {}{}\n", asked.scene.title,
                         asked.reduced() ? " (reduced)" : "", asked.flow_case.summary, asked.law.nu,
                         described(asked.law.mu), ranks > 1 ? fmt::format(", {} ranks", ranks) : ""));
-  print_out(ill_posedness_text(asked.flow_case.problem));
+  print_out(ill_posedness_text(asked.law));
 }
 
 // The flow, and what was read off it on its way.

@@ -21,11 +21,6 @@ namespace {
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-struct Law {
-  RheologyFit fit;
-  FrictionLaw friction;
-};
-
 /// The entries of a function over an array, in its shape.
 template <class Function>
 py::array_t<double> over(const Numbers& I, const Function& value) {
@@ -88,20 +83,17 @@ py::tuple band_of(const coupling::Calibration& calibration, const Numbers& I, do
 }  // namespace
 
 void add_laws(py::module_& module) {
-  py::class_<Law> law(module, "Law");
+  py::class_<RheologyFit> law(module, "Law");
   refuse_new(law);
-  module.def("law", [](const std::string& text, const std::string& name) {
-    const RheologyFit fit = parse_rheology(text, name);
-    return Law{fit, friction_law(fit.mu)};
+  module.def("law", &parse_rheology);
+  law.def("mu", [](const RheologyFit& of, const Numbers& I) {
+    return over(I, [&](double i) { return friction_at(of.mu, i).mu; });
   });
-  law.def("mu", [](const Law& of, const Numbers& I) {
-    return over(I, [&](double i) { return friction_at(of.friction, i).mu; });
+  law.def("slope", [](const RheologyFit& of, const Numbers& I) {
+    return over(I, [&](double i) { return friction_at(of.mu, i).slope; });
   });
-  law.def("slope", [](const Law& of, const Numbers& I) {
-    return over(I, [&](double i) { return friction_at(of.friction, i).slope; });
-  });
-  law.def_property_readonly("nu", [](const Law& of) { return of.fit.nu; });
-  law.def_property_readonly("words", [](const Law& of) { return described(of.fit.mu); });
+  law.def_property_readonly("nu", [](const RheologyFit& of) { return of.nu; });
+  law.def_property_readonly("words", [](const RheologyFit& of) { return described(of.mu); });
 
   using coupling::Calibration;
   py::class_<Calibration> calibration(module, "Calibration");

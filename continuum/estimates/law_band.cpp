@@ -88,7 +88,7 @@ LawBand law_band_of(const FlowCase& flow_case, const FlowSolution& solution, con
   const auto begun = std::chrono::steady_clock::now();
   LawBand band;
   DrawnFlows flows;
-  for (const MeasuredFriction& draw : fit.draws) {
+  for (const FrictionLaw& draw : fit.draws) {
     if (band.draws == draws) break;
     ++band.draws;
     FlowProblem problem = flow_case.problem;

@@ -33,7 +33,7 @@ void check_threshold(const ThresholdKeys& keys, const RheologyFit& law, bool mem
     problems.push_back(nonlocal_problem("effects.nonlocal",
                                         "has a threshold, and the k of the law knows of none",
                                         "a rheology file without a table [k]"));
-  if (keys.amplitude && !keys.threshold && (memory || !threshold(friction_law(law.mu))))
+  if (keys.amplitude && !keys.threshold && (memory || !threshold(law.mu)))
     problems.push_back(nonlocal_problem("effects.nonlocal.threshold",
                                         "is missing, and the law's mu(I) has no threshold of its own",
                                         "above 0"));
@@ -51,8 +51,25 @@ void check_nonlocal(const FlowEffects& effects, const RheologyFit& law, const St
         "a rheology file whose mu is a logarithm or a table, or effects.nonlocal.amplitude"));
 }
 
+// Each of these takes mu for a function of I.
+void check_friction(const FlowEffects& effects, const RheologyFit& law, std::vector<InputProblem>& problems) {
+  if (is_of_inertial_number(law.mu)) return;
+  const auto refuse = [&](bool named, const char* key) {
+    if (named)
+      problems.push_back({.file = "",
+                          .key = key,
+                          .what = "needs a friction that follows from I alone, and that of the law (" +
+                                  described(law.mu) + ") depends on the pressure, too",
+                          .allowed = "absent, or a rheology file with another mu.law"});
+  };
+  refuse(law.k.has_value(), "k");
+  refuse(effects.memory.has_value(), "effects.memory");
+  refuse(effects.nonlocal.has_value(), "effects.nonlocal");
+}
+
 void check_law(const FlowEffects& effects, const RheologyFit& law, const StressLaw& mu) {
   std::vector<InputProblem> problems;
+  check_friction(effects, law, problems);
   if (effects.memory && !law.memory)
     problems.push_back({.file = "",
                         .key = "effects.memory",

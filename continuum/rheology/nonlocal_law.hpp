@@ -26,9 +26,14 @@ Strength strength(const NonlocalLaw<Law>& nonlocal, double rate, double pressure
 }
 
 /// Whether mu determines the fluidity: not with a law that has a threshold, below which g_loc = 0 and the
-/// factor is undefined.
+/// factor is undefined, nor where the pressure decides over mu, too.
 inline bool tells_fluidity(const StressLaw& law) {
-  return std::holds_alternative<LogLaw>(law) || std::holds_alternative<TabulatedLaw>(law);
+  return std::visit(
+      []<class Law>(const Law&) {
+        constexpr bool stands = requires(const Law& of) { of.threshold(); };
+        return OfInertialNumber<Law> && !stands;
+      },
+      law);
 }
 
 }  // namespace drumlin::continuum

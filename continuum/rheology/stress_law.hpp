@@ -1,22 +1,32 @@
 #pragma once
-// Scalar laws F(|D|, p) of the deviatoric stress tau = F D/|D|: a closed list, from which a problem picks
-// one.
+// Scalar laws F(|D|, p) of the deviatoric stress tau = F D/|D|: those of a rheology file, and a fluid.
 #include <variant>
 
 #include "coupling/law/friction_law.hpp"
 #include "coupling/law/rheology_fit.hpp"
-#include "coupling/law/strength.hpp"
 
 namespace drumlin::continuum {
 
 /// Newtonian fluid, tau = 2 viscosity D: for verification, and the first guess of every flow.
 struct NewtonianLaw {
   double viscosity = 0;  ///< rho0 g d sqrt(d/g)
+  Strength strength(double rate, double /*pressure*/) const {
+    return {2 * viscosity * rate, 2 * viscosity, 0};
+  }
 };
 
-using StressLaw = std::variant<LogLaw, LogLinearLaw, SaturatingLaw, ConstantLaw, TabulatedLaw, NewtonianLaw>;
+namespace detail {
+template <class>
+struct WithFluid;
+template <class... Laws>
+struct WithFluid<std::variant<Laws...>> {
+  using Type = std::variant<Laws..., NewtonianLaw>;
+};
+}  // namespace detail
 
-Strength strength(const NewtonianLaw& law, double rate, double pressure);
+using StressLaw = detail::WithFluid<FrictionLaw>::Type;
+
+using drumlin::strength;  // of one law
 Strength strength(const StressLaw& law, double rate, double pressure);
 
 /// The friction law of a rheology file. What the file says of k is another part of the law

@@ -287,7 +287,8 @@ AmountFit fit_amount(std::span<const PathsOfRun> runs, std::span<const PathsOfRu
   }
   of_best.table.slope_besides = followed_slope(found.law);
   found.table = calibrated(left, of_best.table, 0);
-  law.mu = std::get<FrictionTable>(measured_friction(found.table.form, found.table.fit.law, {}, 0, 0));
+  law.mu =
+      std::get<TabulatedLaw>(measured_friction(found.table.form, found.table.fit.law, {}, 0, 0)).points();
   const FormCurve without = alone.curve();
   found.scores = scores_of(runs, law, without);
   found.predictions = scores_of(held_out, law, without);

@@ -85,9 +85,9 @@ RheologyFit rheology_of(const Calibration& calibration) {
   fit.rms_misfit = law.fit.rms_misfit;
   for (const Coefficients& draw : law.draws) {
     if (fit.draws.size() == kept_draws) break;
-    MeasuredFriction mu = measured_friction(law.form, draw, {}, law.I_min, law.I_max);
+    FrictionLaw mu = measured_friction(law.form, draw, {}, law.I_min, law.I_max);
     // Few and scattered points, of a small drum, give some that no flow could have.
-    if (is_law(mu)) fit.draws.push_back(std::move(mu));
+    if (faults_of(mu).empty()) fit.draws.push_back(std::move(mu));
   }
   if (calibration.options.k) fit.k = measured_stress_ratio(calibration.turn->form, calibration.turn->fit.law);
   const auto runs = static_cast<double>(calibration.runs.size());
@@ -123,9 +123,7 @@ void assess(Calibration& calibration) {
     calibration.predictions.push_back(score_of(run.name, friction_of(run, calibration), law));
   const auto speeds = speeds_of(calibration);
   if (speeds.size() > 1) calibration.one_law = one_law_of(speeds, law, calibration.options.draws);
-  std::optional<StressRatioLaw> k;
-  if (calibration.rheology.k) k = stress_ratio_law(*calibration.rheology.k);
-  calibration.ill_posed = ill_posed_intervals(friction_law(calibration.rheology.mu), k ? &*k : nullptr);
+  calibration.ill_posed = ill_posed_intervals(calibration.rheology);
 }
 
 void add_laws_of_the_bed(Calibration& calibration) {

@@ -25,8 +25,8 @@ double half_width_of_parts(std::span<const double> leave_one_out, double interva
 
 }  // namespace
 
-LogFriction friction_with_borrowed_intervals(ProfileSet profiles, const ProfileSet& measured,
-                                             const LayerSelection& selection) {
+LogLaw friction_with_borrowed_intervals(ProfileSet profiles, const ProfileSet& measured,
+                                        const LayerSelection& selection) {
   profiles.header = measured.header;
   for (ProfileColumn& column : profiles.columns) {
     if (column.name != "I" && column.name != "mu") continue;
@@ -48,7 +48,7 @@ CentreFriction centre_friction(const ProfileSet& profiles, std::span<const Profi
   const FrictionFit fit = fit_of(profiles, selection);
   std::vector<double> a, b;
   for (const ProfileSet& without : leave_one_out) {
-    const LogFriction one = friction_with_borrowed_intervals(without, profiles, selection);
+    const LogLaw one = friction_with_borrowed_intervals(without, profiles, selection);
     a.push_back(one.a);
     b.push_back(one.b);
   }

@@ -12,7 +12,7 @@ namespace drumlin::coupling {
 
 /// The law with its scalars mu_a and mu_b; NaN where fewer than three layers are selected.
 struct CentreFriction {
-  LogFriction law;
+  LogLaw law;
   ScalarSet scalars;
 };
 
@@ -25,13 +25,13 @@ CentreFriction centre_friction(const ProfileSet& profiles, std::span<const Profi
 
 /// The law of a profile without header and intervals of its own: it borrows those of the measured one, layer
 /// by layer the nearest. Without them its layers would be chosen and weighted otherwise.
-LogFriction friction_with_borrowed_intervals(ProfileSet profiles, const ProfileSet& measured,
-                                             const LayerSelection& selection);
+LogLaw friction_with_borrowed_intervals(ProfileSet profiles, const ProfileSet& measured,
+                                        const LayerSelection& selection);
 
 /// The same profile with another selection of its layers.
 struct FrictionVariant {
   std::string change;  ///< in words
-  LogFriction law;
+  LogLaw law;
 };
 
 std::vector<FrictionVariant> friction_variants(const ProfileSet& profiles, const LayerSelection& selection);

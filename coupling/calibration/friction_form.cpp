@@ -83,7 +83,7 @@ FormCurve::FormCurve(const FrictionForm& form, const Coefficients& law) : kind_(
   if (kind_ == FormKind::stress_ratio || kind_ == FormKind::turn)
     law_ = Ratio{stress_ratio_law(measured_stress_ratio(form, law)), kind_ == FormKind::turn};
   else
-    law_ = friction_law(measured_friction(form, law, {}, 0, 0));
+    law_ = measured_friction(form, law, {}, 0, 0);
 }
 
 CurvePoint FormCurve::at(double I) const {
@@ -190,11 +190,11 @@ std::vector<double> table_knots(std::vector<double> I, double per_decade, std::s
   return knots;
 }
 
-MeasuredFriction measured_friction(const FrictionForm& form, const Coefficients& law,
-                                   const std::vector<Coefficients>& draws, double I_min, double I_max) {
-  if (form.kind == FormKind::log) return LogFriction{law[0], law[1], covariance_of(draws), I_min, I_max};
-  if (form.kind == FormKind::log_linear) return LogLinearFriction{law[0], law[1], law[2], I_min, I_max};
-  return FrictionTable{form.knots, values_at_knots(law)};
+FrictionLaw measured_friction(const FrictionForm& form, const Coefficients& law,
+                              const std::vector<Coefficients>& draws, double I_min, double I_max) {
+  if (form.kind == FormKind::log) return LogLaw{law[0], law[1], covariance_of(draws), I_min, I_max};
+  if (form.kind == FormKind::log_linear) return LogLinearLaw{law[0], law[1], law[2], I_min, I_max};
+  return TabulatedLaw(form.knots, values_at_knots(law));
 }
 
 NormalStressRatio measured_stress_ratio(const FrictionForm& form, const Coefficients& law) {

@@ -75,8 +75,8 @@ double least_coefficient(const FrictionForm& form, std::size_t index);
 std::vector<double> table_knots(std::vector<double> I, double per_decade = 2, std::size_t least_points = 6);
 
 /// A form of mu as it crosses to the continuum; the covariance of the logarithm is that of `draws`.
-MeasuredFriction measured_friction(const FrictionForm& form, const Coefficients& law,
-                                   const std::vector<Coefficients>& draws, double I_min, double I_max);
+FrictionLaw measured_friction(const FrictionForm& form, const Coefficients& law,
+                              const std::vector<Coefficients>& draws, double I_min, double I_max);
 
 /// k of `stress_ratio` or `turn` as it crosses to the continuum.
 NormalStressRatio measured_stress_ratio(const FrictionForm& form, const Coefficients& law);

@@ -36,7 +36,7 @@ std::vector<FrictionPoint> friction_points(const ProfileSet& profiles, const Lay
 
 /// A fit and how well it describes its points.
 struct FrictionFit {
-  LogFriction law;               ///< I_min, I_max: smallest and largest I of the points
+  LogLaw law;                    ///< I_min, I_max: smallest and largest I of the points
   double rms_misfit = 0;         ///< of mu
   double intrinsic_scatter = 0;  ///< standard deviation of mu beyond the errors of the points
   double birge_ratio =

@@ -258,8 +258,8 @@ MemoryLaw measured_memory(const MemoryCalibration& found) {
   const CalibratedLaw& table = found.remembered ? found.remembered->table : found.amount;
   const auto amount = measured_friction(table.form, table.fit.law, {}, 0, 0);
   const AxisMemory& law = found.law;
-  MemoryLaw memory{law.c,     law.m,      law.chi * 180 / std::numbers::pi, law.c_rho.value(),
-                   law.I_low, law.I_high, std::get<FrictionTable>(amount)};
+  MemoryLaw memory{law.c,     law.m,      law.chi * 180 / std::numbers::pi,       law.c_rho.value(),
+                   law.I_low, law.I_high, std::get<TabulatedLaw>(amount).points()};
   if (found.remembered) memory.amount = found.remembered->law;
   return memory;
 }

@@ -1,91 +1,60 @@
 #pragma once
-// mu(I) and its derivative: the one evaluation that calibration, continuum and figures share.
-#include <functional>
+// The law of the friction: every form of it, and the one evaluation that calibration, continuum and figures
+// share.
+#include <cassert>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
-#include "coupling/law/monotone_cubic.hpp"
-#include "coupling/law/rheology_fit.hpp"
+#include "coupling/law/forms/constant_law.hpp"
+#include "coupling/law/forms/jop_law.hpp"
+#include "coupling/law/forms/log_law.hpp"
+#include "coupling/law/forms/log_linear_law.hpp"
+#include "coupling/law/forms/tabulated_law.hpp"
 
 namespace drumlin {
 
-/// Friction coefficient at an inertial number I, and I dmu/dI.
-struct FrictionValue {
-  double mu = 0;
-  double slope = 0;
-};
+/// The one list of the forms (coupling/law/forms/form.hpp says what a form is). Code that evaluates a law at
+/// many points visits it once.
+using FrictionLaw = std::variant<LogLaw, LogLinearLaw, ConstantLaw, JopLaw, TabulatedLaw>;
 
-/// mu -> (mu + sqrt(mu^2 + 4 m^2))/2 with m = 1e-3 keeps a mu that falls below nought at small I positive, so
-/// that the law dissipates at any I; moves mu = 0.2 by 5e-6.
-FrictionValue kept_positive(double mu, double slope);
+/// The shear strength, with I = 2|D|/sqrt(p); p > 0 and |D| > 0 are the caller's regularised values (p =
+/// sigma_zz where k = 1).
+template <class Law>
+Strength strength(const Law& law, double rate, double pressure) {
+  assert(rate > 0 && pressure > 0);
+  if constexpr (OfInertialNumber<Law>) {
+    const FrictionValue f = law.friction(2 * rate / std::sqrt(pressure));
+    return {f.mu * pressure, f.slope * pressure / rate, f.mu - 0.5 * f.slope};
+  } else {
+    return law.strength(rate, pressure);
+  }
+}
 
-/// Derivative of kept_positive(mu) by mu where its value is `kept`.
-double positivity_slope(double kept);
+/// Whether I alone decides over mu: k, memory and fluidity go with no other law.
+bool is_of_inertial_number(const FrictionLaw& law);
 
-/// mu = a + b ln I, kept positive.
-struct LogLaw {
-  double a = 0;
-  double b = 0;
-  FrictionValue friction(double I) const;
-};
-
-/// mu = a + b ln I + c I, kept positive.
-struct LogLinearLaw {
-  double a = 0;
-  double b = 0;
-  double c = 0;
-  FrictionValue friction(double I) const;
-};
-
-/// Jop, Forterre & Pouliquen, Nature 441 (2006): mu = mu_s + (mu_2 - mu_s)/(I_0/I + 1).
-struct SaturatingLaw {
-  double mu_s = 0;
-  double mu_2 = 0;
-  double I_0 = 0;
-  FrictionValue friction(double I) const;
-};
-
-/// The same friction at every rate: Drucker and Prager's plasticity.
-struct ConstantLaw {
-  double mu = 0;
-  FrictionValue friction(double I) const;
-};
-
-/// mu over ln I through the points of a table: MonotoneCubic between them, and outside straight in ln I as
-/// the two outermost points say, so that mu goes on growing as a logarithm does (a table that ended level
-/// would be ill-posed there); kept positive.
-class TabulatedLaw {
- public:
-  /// How mu goes on above the last point, straight as the last two say.
-  enum class Beyond { straight_in_ln_I, straight_in_I };
-  /// I ascending, mu growing, two points at least.
-  TabulatedLaw(const std::vector<double>& I, const std::vector<double>& mu,
-               Beyond beyond = Beyond::straight_in_ln_I);
-  FrictionValue friction(double I) const;
-
- private:
-  MonotoneCubic mu_of_ln_I_;
-  double straight_from_;  // I; infinite: nowhere
-};
-
-/// Every form of mu(I) that a file can hold. Code that evaluates a law at many points visits it once.
-using FrictionLaw = std::variant<LogLaw, LogLinearLaw, SaturatingLaw, ConstantLaw, TabulatedLaw>;
-
-/// What evaluates the law of a file (or of a calibration).
-FrictionLaw friction_law(const MeasuredFriction& mu);
-
-/// A friction of one's own as a table, `per_decade` points to a decade of I. A flow evaluates the table:
-/// between its points and beyond them it is TabulatedLaw. Throws InputError where mu is not positive, finite
-/// and growing, or the range is none.
-FrictionTable sampled_friction(const std::function<double(double)>& mu, double I_min, double I_max,
-                               int per_decade = 8);
-
-/// mu and I dmu/dI at I > 0.
+/// mu and I dmu/dI at I > 0. Throws InputError where the pressure decides, too.
 FrictionValue friction_at(const FrictionLaw& law, double I);
 
-/// mu_s, the friction below which the material of such a law stands still: of Jop's form and of a constant.
-/// Absent for a law that creeps at any stress (logarithms, tables).
+/// mu_s, the friction below which the material of such a law stands still. Absent for a law that creeps at
+/// any stress (logarithms, tables).
 std::optional<double> threshold(const FrictionLaw& law);
+
+/// Largest I that the friction was measured at; infinite for a form that is given, not fitted.
+double largest_measured_I(const FrictionLaw& law);
+
+/// The friction in words, for messages: "mu = 0.35 + 0.013 ln I".
+std::string described(const FrictionLaw& law);
+
+/// What does not hold between the keys of the law: none of one that grows, and of a fitted one that is
+/// between 0.001 and 10 at the largest I.
+std::vector<FormFault> faults_of(const FrictionLaw& law);
+
+/// The numbers that tell a fitted law from others of its form; none of a form that is not fitted.
+std::vector<double> coefficients_of(const FrictionLaw& law);
+/// The same form with others, as many.
+FrictionLaw with_coefficients(const FrictionLaw& law, std::span<const double> coefficients);
 
 }  // namespace drumlin

@@ -13,7 +13,7 @@
 //   creep = slope ln(|D|/(ratio |W|)), at most 0.
 #include <complex>
 
-#include "coupling/law/friction_law.hpp"
+#include "coupling/law/rheology_fit.hpp"
 
 namespace drumlin {
 

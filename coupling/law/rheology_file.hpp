@@ -11,8 +11,6 @@ namespace drumlin {
 RheologyFit read_rheology(const std::filesystem::path& file);
 /// The same from a text; `name` stands for the file in messages.
 RheologyFit parse_rheology(const std::string& text, const std::string& name);
-/// Whether a fitted mu(I) may stand in such a file: it grows, and is between 0.001 and 10 at the largest I.
-bool is_law(const MeasuredFriction& mu);
 /// The text of rheology.toml.
 std::string rheology_text(const RheologyFit& fit);
 void write_rheology(const std::filesystem::path& file, const RheologyFit& fit);

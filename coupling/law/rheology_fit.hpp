@@ -1,52 +1,12 @@
 #pragma once
-// The law that crosses from the particles to the continuum: forms of mu(I), k(I), and where they come from.
-#include <array>
+// The law that crosses from the particles to the continuum: friction, k(I), memory, and where they come from.
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
+#include "coupling/law/friction_law.hpp"
+
 namespace drumlin {
-
-/// mu(I) = a + b ln I (natural logarithm), with the covariance of (a, b) and the range of I that it was
-/// fitted on.
-struct LogFriction {
-  double a = 0;
-  double b = 0;
-  std::array<double, 3> covariance{0, 0, 0};  ///< var(a), cov(a, b), var(b)
-  double I_min = 0;
-  double I_max = 0;
-};
-
-/// mu(I) = a + b ln I + c I: the logarithm of slow flow, and what fast flow adds.
-struct LogLinearFriction {
-  double a = 0;
-  double b = 0;
-  double c = 0;
-  double I_min = 0;  ///< range of I that it was fitted on
-  double I_max = 0;
-};
-
-/// The same friction at every I.
-struct ConstantFriction {
-  double mu = 0;
-};
-
-/// Jop, Forterre & Pouliquen, Nature 441 (2006): mu = mu_s + (mu_2 - mu_s)/(I_0/I + 1).
-struct JopFriction {
-  double mu_s = 0;
-  double mu_2 = 0;
-  double I_0 = 0;
-};
-
-/// mu(I) as a table, smooth between its points (coupling/law/friction_law.hpp).
-struct FrictionTable {
-  std::vector<double> I;   ///< ascending, two at least
-  std::vector<double> mu;  ///< growing
-};
-
-using MeasuredFriction =
-    std::variant<LogFriction, LogLinearFriction, ConstantFriction, JopFriction, FrictionTable>;
 
 /// k(I) = sigma_xx/sigma_zz as a table, smooth in ln I between its points and constant outside; absent: no k
 /// in the law.
@@ -98,22 +58,16 @@ struct NonlocalLength {
 
 /// A law and the state it was measured in.
 struct RheologyFit {
-  MeasuredFriction mu;
+  FrictionLaw mu;
   std::optional<NormalStressRatio> k;
   std::optional<MemoryLaw> memory;         ///< absent: the law has none
   std::optional<NonlocalLength> nonlocal;  ///< absent: the law has none
   double nu = 0;                           ///< volume fraction of the bulk
   std::optional<double> nu_ci99;
-  std::optional<double> rms_misfit;     ///< of mu about the fit
-  std::vector<MeasuredFriction> draws;  ///< laws of the same form that other draws of the points gave
-  std::vector<std::string> fitted_on;   ///< runs
-  bool reduced = false;                 ///< fitted on a reduced (smoke) run
+  std::optional<double> rms_misfit;    ///< of mu about the fit
+  std::vector<FrictionLaw> draws;      ///< laws of the same form that other draws of the points gave
+  std::vector<std::string> fitted_on;  ///< runs
+  bool reduced = false;                ///< fitted on a reduced (smoke) run
 };
-
-/// Largest I that the friction was measured at; infinite for a form that is given, not fitted.
-double largest_measured_I(const MeasuredFriction& mu);
-
-/// The friction in words, for messages: "mu = 0.35 + 0.013 ln I".
-std::string described(const MeasuredFriction& mu);
 
 }  // namespace drumlin

@@ -6,7 +6,7 @@
 // The convention of signs is that of docs/conventions.md ("Axes of stress and strain rate").
 #include <cmath>
 
-#include "coupling/law/strength.hpp"
+#include "coupling/law/friction_law.hpp"
 #include "coupling/law/stress_ratio.hpp"
 
 namespace drumlin {

@@ -42,7 +42,7 @@ TEST(CentreFriction, TooFewLayersGiveNoLaw) {
 }
 
 TEST(LawCurve, RunsThroughTheLawFromEndToEnd) {
-  const FrictionLaw law = friction_law(LogFriction{.a = 0.36, .b = 0.014});
+  const FrictionLaw law = LogLaw{.a = 0.36, .b = 0.014};
   const LawCurve curve = law_curve(law, 1e-4, 1e-1);
   ASSERT_EQ(curve.I.size(), 41u);
   EXPECT_DOUBLE_EQ(curve.I.front(), 1e-4);

@@ -25,7 +25,7 @@ std::vector<FrictionPoint> exact_points(int count, double mu_error, double relat
   return points;
 }
 
-TEST(LogFriction, PointsOnTheLawGiveItBack) {
+TEST(LogLaw, PointsOnTheLawGiveItBack) {
   for (double error : {0.01, 0.0, std::numeric_limits<double>::quiet_NaN()}) {
     const FrictionFit fit = fit_log_friction(exact_points(20, error, error));
     EXPECT_NEAR(fit.law.a, a, 1e-12);
@@ -37,7 +37,7 @@ TEST(LogFriction, PointsOnTheLawGiveItBack) {
   }
 }
 
-TEST(LogFriction, PointsWithinTheirErrorsKeepTheErrorsOfTheWeights) {
+TEST(LogLaw, PointsWithinTheirErrorsKeepTheErrorsOfTheWeights) {
   std::vector<FrictionPoint> points;
   for (double log_I : {-1.0, 0.0, 1.0}) points.push_back({std::exp(log_I), 0.5, 0, 0.01});
   // ln I = -1, 0, 1: var(a) = s^2/3, var(b) = s^2/2, no covariance.
@@ -49,14 +49,14 @@ TEST(LogFriction, PointsWithinTheirErrorsKeepTheErrorsOfTheWeights) {
   EXPECT_NEAR(fit.birge_ratio, 0, 1e-9);
 }
 
-TEST(LogFriction, LayerWithALargeErrorHardlyCounts) {
+TEST(LogLaw, LayerWithALargeErrorHardlyCounts) {
   auto points = exact_points(20, 0.002, 0);
   points[10].mu += 0.5;
   points[10].mu_error = 1;
   EXPECT_NEAR(fit_log_friction(points).law.b, b, 1e-5);
 }
 
-TEST(LogFriction, ErrorOfICountsThroughTheSlope) {
+TEST(LogLaw, ErrorOfICountsThroughTheSlope) {
   // sigma_I/I = 1 at b = 0.0144 is an error of 0.0144 in mu.
   auto through_I = exact_points(20, 1e-9, 0.001);
   auto through_mu = exact_points(20, b * 0.001, 0);
@@ -91,20 +91,20 @@ Trials trials(double mu_error, double hidden_scatter, double relative_I_error) {
   return result;
 }
 
-TEST(LogFriction, CovarianceCoversTheTruth) {
+TEST(LogLaw, CovarianceCoversTheTruth) {
   // 2000 trials know a share of 0.99 to +-0.0067 (three standard errors); scatter estimated from 38 degrees
   // of freedom widens the true quantile from 2.58 to 2.71, which costs 0.004.
   EXPECT_GT(trials(0.01, 0, 0).within_99, 0.98);
   EXPECT_GT(trials(0.01, 0, 0.2).within_99, 0.98);
 }
 
-TEST(LogFriction, ScatterThatTheErrorsDoNotKnowIsFoundAndCounted) {
+TEST(LogLaw, ScatterThatTheErrorsDoNotKnowIsFoundAndCounted) {
   const Trials result = trials(0.002, 0.02, 0.1);
   EXPECT_GT(result.within_99, 0.975);
   EXPECT_NEAR(result.mean_scatter, 0.02, 0.001);
 }
 
-TEST(LogFriction, TooFewLayersAreRefused) {
+TEST(LogLaw, TooFewLayersAreRefused) {
   EXPECT_THROW(fit_log_friction(exact_points(2, 0.01, 0)), InputError);
   auto points = exact_points(5, 0.01, 0);
   for (auto& point : points) point.I = 0.01;

@@ -30,13 +30,13 @@ std::string with(const std::string& from, const std::string& to) {
 }
 
 TEST(RheologyFile, ALawGrowsAndIsPositiveAtTheLargestI) {
-  const LogFriction law{0.35, 0.013, {1e-4, 1e-5, 2e-6}, 1e-4, 0.1};
-  EXPECT_TRUE(is_law(law));
-  LogFriction negative = law, falling = law;
+  const LogLaw law{0.35, 0.013, {1e-4, 1e-5, 2e-6}, 1e-4, 0.1};
+  EXPECT_TRUE(faults_of(law).empty());
+  LogLaw negative = law, falling = law;
   negative.a = -0.2;
   falling.b = -0.01;
-  EXPECT_FALSE(is_law(negative));
-  EXPECT_FALSE(is_law(falling));
+  EXPECT_FALSE(faults_of(negative).empty());
+  EXPECT_FALSE(faults_of(falling).empty());
 }
 
 /// A law with its words in a file, which are read back to the same text.
@@ -48,7 +48,7 @@ void expect_written(const RheologyFit& fit, const std::vector<std::string>& word
 
 TEST(RheologyFile, WhatWasWrittenIsReadBack) {
   RheologyFit fit;
-  fit.mu = LogFriction{0.3612345678901234, 0.0144, {1.1e-5, 2.3e-6, 6.5e-7}, 1.3e-4, 0.087};
+  fit.mu = LogLaw{0.3612345678901234, 0.0144, {1.1e-5, 2.3e-6, 6.5e-7}, 1.3e-4, 0.087};
   fit.nu = 0.8134;
   fit.fitted_on = {"runs/six", "runs/ten"};
   expect_written(
@@ -56,9 +56,9 @@ TEST(RheologyFile, WhatWasWrittenIsReadBack) {
             "I_min = 0.00013\n", "I_max = 0.087\n", "nu = 0.8134\n", "runs = [\"runs/six\", \"runs/ten\"]"});
   for (const char* absent : {"[k]", "nu_ci99", "rms_misfit", "[memory", "[nonlocal"})
     expect_lacks(rheology_text(fit), absent);
-  for (const auto& [mu, words] : std::vector<std::pair<MeasuredFriction, std::vector<std::string>>>{
-           {ConstantFriction{0.31}, {"mu = 0.31\n"}},
-           {JopFriction{0.383, 0.643, 0.279}, {"mu_s = 0.383\n", "mu_2 = 0.643\n", "I_0 = 0.279\n"}},
+  for (const auto& [mu, words] : std::vector<std::pair<FrictionLaw, std::vector<std::string>>>{
+           {ConstantLaw{0.31}, {"mu = 0.31\n"}},
+           {JopLaw{0.383, 0.643, 0.279}, {"mu_s = 0.383\n", "mu_2 = 0.643\n", "I_0 = 0.279\n"}},
            {FrictionTable{{1e-4, 1e-2, 0.1}, {0.2, 0.3, 0.33}},
             {"I = [0.0001, 0.01, 0.1]", "mu = [0.2, 0.3, 0.33]"}}}) {
     fit.mu = mu;

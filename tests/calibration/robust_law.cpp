@@ -88,7 +88,7 @@ TEST(RobustLaw, DrawsAreTheSameEachTime) {
 TEST(RobustLaw, ATableFollowsWhatNoFormulaDoes) {
   // The limiter of the flow's cubic acts at both inner knots.
   const FrictionTable truth_table{{1e-4, 1e-3, 1e-2, 1e-1}, {0.15, 0.23, 0.24, 0.34}};
-  const FrictionLaw bent = friction_law(truth_table);
+  const FrictionLaw bent = truth_table;
   std::vector<FrictionPoint> points;
   for (int i = 0; i < 120; ++i) {
     const double I = 1e-4 * std::pow(1e3, (i + 0.5) / 120);
@@ -118,7 +118,7 @@ TEST(RobustLaw, ATableOfFlatPointsIsKeptWellPosedWhereverItHasPoints) {
   const FrictionForm table{.kind = FormKind::table, .knots = {1e-4, 1e-3, 3e-3, 8e-3, 2e-2, 1e-1}};
   const CalibratedLaw law = calibrated({points}, table, 5);
   EXPECT_GT(held_intervals(law.form, law.fit.law), 0u);
-  const FrictionLaw mu = friction_law(measured_friction(law.form, law.fit.law, {}, 1e-4, 1e-1));
+  const FrictionLaw mu = measured_friction(law.form, law.fit.law, {}, 1e-4, 1e-1);
   EXPECT_TRUE(ill_posed_intervals(mu, nullptr, 1e-4, 1e-1).empty());
 }
 

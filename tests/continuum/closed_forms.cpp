@@ -17,7 +17,7 @@ TEST(PlaneShear, RateBelongsToTheStress) {
   EXPECT_NEAR(plane_shear_rate(paper, 4, 4 * (0.35 + 0.013 * std::log(0.01))), 0.02, 1e-12);
 }
 
-const StressLaw jop = SaturatingLaw{0.383, 0.643, 0.279};
+const StressLaw jop = JopLaw{0.383, 0.643, 0.279};
 const StressLaw table = TabulatedLaw({1e-4, 1e-3, 1e-2, 0.1}, {0.22, 0.27, 0.29, 0.34});
 const StressLaw logarithm = paper;
 

@@ -17,7 +17,7 @@ namespace {
 
 RheologyFit paper_law() {
   RheologyFit law;
-  law.mu = LogFriction{.a = 0.35, .b = 0.013};
+  law.mu = LogLaw{.a = 0.35, .b = 0.013};
   law.nu = 0.82;
   return law;
 }
@@ -142,7 +142,7 @@ TEST(DrumProblem, RefusesEffectsThatTheLawDoesNotAllow) {
   scene.effects.nonlocal = FlowNonlocal{.length = 1};
   EXPECT_EQ(refused(scene, paper_law()), Keys{});
   RheologyFit law = paper_law();
-  law.mu = JopFriction{0.38, 0.64, 0.28};  // a threshold: below it mu does not determine the fluidity
+  law.mu = JopLaw{0.38, 0.64, 0.28};  // a threshold: below it mu does not determine the fluidity
   EXPECT_EQ(refused(scene, law), Keys{"effects.nonlocal"});
   // All faults at once; memory brings a mu(I) of its own, which has no threshold.
   scene.effects.memory = FlowMemory{};
@@ -156,7 +156,7 @@ TEST(DrumProblem, TakesAThresholdFromTheSceneOrItsLaw) {
   scene.effects.nonlocal = FlowNonlocal{.amplitude = 0.5};
   RheologyFit law = paper_law();
   EXPECT_EQ(refused(scene, law), Keys{"effects.nonlocal.threshold"});  // a logarithm creeps at any stress
-  law.mu = JopFriction{0.38, 0.64, 0.28};
+  law.mu = JopLaw{0.38, 0.64, 0.28};
   EXPECT_EQ(drum_problem(scene, law).threshold_fluidity.value().amplitude, 0.5);
   EXPECT_FALSE(drum_problem(scene, law).threshold_fluidity->threshold);
   EXPECT_FALSE(drum_problem(scene, law).nonlocal);

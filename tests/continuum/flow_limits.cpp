@@ -13,14 +13,14 @@ namespace drumlin::flow_limits {
 using namespace continuum;
 namespace {
 
-RheologyFit law_of(const MeasuredFriction& mu) {
+RheologyFit law_of(const FrictionLaw& mu) {
   RheologyFit law;
   law.mu = mu;
   law.nu = 0.82;
   return law;
 }
-const RheologyFit paper = law_of(LogFriction{.a = 0.35, .b = 0.013});
-const RheologyFit jop = law_of(JopFriction{0.383, 0.643, 0.279});
+const RheologyFit paper = law_of(LogLaw{.a = 0.35, .b = 0.013});
+const RheologyFit jop = law_of(JopLaw{0.383, 0.643, 0.279});
 
 FlowScene scene_of(const std::string& geometry, const std::string& rest) {
   return parse_flow_scene(

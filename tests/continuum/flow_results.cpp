@@ -13,7 +13,7 @@ namespace {
 
 RheologyFit law_with_k() {
   RheologyFit law;
-  law.mu = LogFriction{.a = 0.35, .b = 0.013};
+  law.mu = LogLaw{.a = 0.35, .b = 0.013};
   law.k = NormalStressRatio{.I = {1e-3, 1e-2, 1e-1}, .k = {0.95, 1, 1.1}};
   law.nu = 0.82;
   return law;

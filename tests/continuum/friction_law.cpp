@@ -87,12 +87,12 @@ TEST(TabulatedLaw, GrowsEverywhereAndStaysPositive) {
 
 TEST(StressLawOfAFile, HasTheFormThatTheFileNames) {
   RheologyFit fit;
-  fit.mu = LogFriction{.a = 0.35, .b = 0.013};
+  fit.mu = LogLaw{.a = 0.35, .b = 0.013};
   EXPECT_EQ(std::get<LogLaw>(stress_law(fit)).b, 0.013);
-  fit.mu = ConstantFriction{0.3};
+  fit.mu = ConstantLaw{0.3};
   EXPECT_EQ(std::get<ConstantLaw>(stress_law(fit)).mu, 0.3);
-  fit.mu = JopFriction{0.383, 0.643, 0.279};
-  EXPECT_EQ(std::get<SaturatingLaw>(stress_law(fit)).I_0, 0.279);
+  fit.mu = JopLaw{0.383, 0.643, 0.279};
+  EXPECT_EQ(std::get<JopLaw>(stress_law(fit)).I_0, 0.279);
   fit.mu = FrictionTable{{1e-3, 1e-1}, {0.2, 0.3}};
   EXPECT_NEAR(std::get<TabulatedLaw>(stress_law(fit)).friction(0.01).mu, 0.25, 1e-5);
 }
@@ -114,7 +114,7 @@ TEST(SampledFriction, IsTheFunctionAsAFlowEvaluatesIt) {
   const auto mu = [](double I) { return 0.36 + 0.5 * std::pow(I, 0.7); };
   const FrictionTable table = sampled_friction(mu, 1e-4, 1, 16);
   EXPECT_EQ(table.I.size(), 65u);
-  const FrictionLaw law = friction_law(table);
+  const FrictionLaw law = table;
   for (double I = 1.3e-4; I < 1; I *= 1.7) {
     EXPECT_NEAR(friction_at(law, I).mu, mu(I), 1e-4) << I;
     EXPECT_NEAR(friction_at(law, I).slope, 0.35 * std::pow(I, 0.7), 5e-3) << I;

@@ -78,7 +78,7 @@ TEST(GapSolution, IsAnnularCouetteFlowForEveryLaw) {
 }
 
 TEST(GapSolution, TakesAnyLawAndItsRegularisation) {
-  const SaturatingLaw jop{0.383, 0.643, 0.279};
+  const JopLaw jop{0.383, 0.643, 0.279};
   // mu(I) = 0.5: I = 0.279 (0.5 - 0.383)/(0.643 - 0.5).
   const double I = 0.279 * 0.117 / 0.143;
   EXPECT_NEAR(shear_rate(jop, none, 9, 4.5), 3 * I, 1e-9);
@@ -107,7 +107,7 @@ FlowScene scene_of(const FlowGeometry& geometry) {
 
 RheologyFit paper_law() {
   RheologyFit law;
-  law.mu = LogFriction{.a = 0.35, .b = 0.013};
+  law.mu = LogLaw{.a = 0.35, .b = 0.013};
   law.nu = nu;
   return law;
 }

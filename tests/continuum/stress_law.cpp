@@ -23,8 +23,8 @@ TEST(LogLaw, StaysPositiveHoweverSlowTheShear) {
   for (double I = 1; I > 1e-60; I *= 0.1) EXPECT_GT(paper.friction(I).mu, 0) << I;
 }
 
-TEST(SaturatingLaw, RunsBetweenItsTwoFrictions) {
-  const SaturatingLaw jop{0.383, 0.643, 0.279};
+TEST(JopLaw, RunsBetweenItsTwoFrictions) {
+  const JopLaw jop{0.383, 0.643, 0.279};
   EXPECT_NEAR(jop.friction(1e-9).mu, 0.383, 1e-8);
   EXPECT_NEAR(jop.friction(0.279).mu, 0.5 * (0.383 + 0.643), 1e-12);
   EXPECT_NEAR(jop.friction(1e9).mu, 0.643, 1e-8);
@@ -41,12 +41,12 @@ TEST(NonlocalLaw, IsTheLocalLawAtAnotherInertialNumber) {
               (at(rate, p * (1 + h)).value - at(rate, p * (1 - h)).value) / (2 * h * p), 1e-6);
   EXPECT_TRUE(tells_fluidity(paper));
   EXPECT_FALSE(tells_fluidity(ConstantLaw{0.3}));
-  EXPECT_FALSE(tells_fluidity(SaturatingLaw{0.383, 0.643, 0.279}));
+  EXPECT_FALSE(tells_fluidity(JopLaw{0.383, 0.643, 0.279}));
 }
 
 TEST(StressLaw, SlopesAreThoseOfItsValues) {
   for (const StressLaw& law :
-       {StressLaw(paper), StressLaw(SaturatingLaw{0.383, 0.643, 0.279}), StressLaw(ConstantLaw{0.3}),
+       {StressLaw(paper), StressLaw(JopLaw{0.383, 0.643, 0.279}), StressLaw(ConstantLaw{0.3}),
         StressLaw(TabulatedLaw({1e-4, 3e-3, 0.1}, {0.2, 0.29, 0.32})), StressLaw(NewtonianLaw{2})})
     for (const double rate : {1e-6, 1e-2, 3.0})
       for (const double p : {0.1, 7.0}) {

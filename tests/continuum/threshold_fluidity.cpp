@@ -109,7 +109,7 @@ TEST(ThresholdFluidity, MakesADraggedLayerUnderItsWeightCreepExponentially) {
 // axes of D turn with the place, and the force that it needs comes from the law.
 struct WavyRing {
   double inner = 2, outer = 4, A = 0.4;
-  SaturatingLaw law{0.3, 0.6, 0.3};
+  JopLaw law{0.3, 0.6, 0.3};
 
   double pressure(double r) const { return 3 + std::sin(r); }
   double g(double r) const { return 1 + 0.3 * std::cos(k() * (r - inner)); }

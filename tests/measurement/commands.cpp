@@ -256,7 +256,7 @@ TEST(CalibrateCommand, LeavesTheLawOfItsRuns) {
   options.output = folder / "rheology.toml";
   EXPECT_EQ(calibrate(options), 0);
   const RheologyFit fit = read_rheology(options.output);
-  const auto mu = std::get<LogFriction>(fit.mu);
+  const auto mu = std::get<LogLaw>(fit.mu);
   EXPECT_NEAR(mu.a, 0.36, 0.003);  // 35 layers off the law by 0.01 to either side in turn
   EXPECT_NEAR(mu.b, 0.0144, 0.0005);
   EXPECT_GT(mu.covariance[0], 0);

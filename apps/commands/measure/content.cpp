@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void add_law(const LogFriction& law, ScalarSet& scalars) {
+void add_law(const LogLaw& law, ScalarSet& scalars) {
   scalars.scalars.push_back({"mu_a", law.a, {}});
   scalars.scalars.push_back({"mu_b", law.b, {}});
 }

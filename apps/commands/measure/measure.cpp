@@ -271,9 +271,9 @@ coupling::CentreFriction friction_of(const Request& request, const particles::Me
 }
 
 /// The curve that figures draw: null where there is no law.
-Json curve_of(const LogFriction& law) {
+Json curve_of(const LogLaw& law) {
   if (!std::isfinite(law.a) || !(law.I_min < law.I_max)) return {};
-  return to_json(law_curve(friction_law(law), law.I_min, law.I_max));
+  return to_json(law_curve(law, law.I_min, law.I_max));
 }
 
 /// Those of the measurement, of the fit of mu(I) and of the log.

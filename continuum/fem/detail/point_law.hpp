@@ -143,7 +143,7 @@ void with_point_law(const FlowProblem& problem, const StressLaw& law, const Held
   std::visit(
       [&](const auto& chosen) {
         using Law = std::decay_t<decltype(chosen)>;
-        if constexpr (!std::is_same_v<Law, NewtonianLaw>)
+        if constexpr (OfInertialNumber<Law>)
           if (!held.turn.empty()) return visit(TurnedPointLaw<Law>{chosen, problem.turned->k, held});
         visit(PlainPointLaw<Law>{chosen, held});
       },

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "continuum/fem/flow_solver.hpp"
-#include "continuum/rheology/ill_posed_ranges.hpp"
 #include "coupling/common/errors.hpp"
+#include "coupling/law/ill_posed.hpp"
 #include "coupling/law/rheology_file.hpp"
 #include "tests/hardcases/continuum/case_lists.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"
@@ -29,8 +29,8 @@ std::vector<HardCheck> decimal_logarithm() {
     const double middle = std::sqrt(low * high);
     (barker(decimal, middle) > 0 ? high : low) = middle;
   }
-  const auto ranges = ill_posed_ranges(decimal, nullptr);
-  const auto natural = ill_posed_ranges(paper_law, nullptr);
+  const auto ranges = ill_posed_intervals(decimal, nullptr);
+  const auto natural = ill_posed_intervals(paper_law, nullptr);
   const double from = ranges.empty() ? std::nan("") : ranges.front().from;
   const FlowSolution flow = solve_flow(small_drum_problem(decimal), one_mesh());
   const FlowIntegrals sums = flow.field.integrals();
@@ -47,7 +47,7 @@ std::vector<HardCheck> decimal_logarithm() {
 
 RheologyFit logarithm(double b) {
   RheologyFit fit;
-  fit.mu = LogFriction{.a = 0.35, .b = b, .I_min = 1e-4, .I_max = 1e-1};
+  fit.mu = LogLaw{.a = 0.35, .b = b, .I_min = 1e-4, .I_max = 1e-1};
   fit.nu = 0.82;
   return fit;
 }
@@ -55,7 +55,7 @@ RheologyFit logarithm(double b) {
 // Three values of the paper's text: 0.8 for I -> 0, 1.2 at 1e-3, 1 in the flowing layer.
 std::vector<HardCheck> bump_of_k() {
   const StressRatioLaw k({1e-5, 1e-3, 1e-2}, {0.8, 1.2, 1.0});
-  const auto ranges = ill_posed_ranges(paper_law, &k);
+  const auto ranges = ill_posed_intervals(paper_law, &k);
   double covered = 0;  // of 1e-5 .. 1e-3, in decades
   for (const InertialRange& range : ranges)
     covered += std::max(0.0, std::log10(std::min(range.to, 1e-3) / std::max(range.from, 1e-5)));
@@ -85,7 +85,7 @@ std::vector<HardCheck> falling_friction() {
     says_why = std::string(error.what()).find("mu falls with I") != std::string::npos;
   }
   // What would come of it: every wave grows.
-  const auto ranges = ill_posed_ranges(LogLaw{0.35, -0.013}, nullptr, 1e-4, 1e-1);
+  const auto ranges = ill_posed_intervals(LogLaw{0.35, -0.013}, nullptr, 1e-4, 1e-1);
   const bool everywhere = ranges.size() == 1 && ranges[0].from <= 1e-4 && ranges[0].to >= 1e-1;
   return {at_least("refused as wrong input (exit 2)", 1, refused, ""),
           at_least("with the reason: mu falls with I", 1, says_why, ""),
