@@ -98,12 +98,12 @@ TEST(MapSums, TotalsAreThoseOfTheGrainsAndContacts) {
       area += own;
       momentum_x += own * in_frame.v_x[i];
     }
-    for (const HalfBranch& branch : in_frame.half_branches()) {
-      xx -= branch.force_x * branch.toward_x;
-      xz -= branch.force_x * branch.toward_z;
-      zx -= branch.force_z * branch.toward_x;
+    for (const HalfBranch<2>& branch : in_frame.half_branches()) {
+      xx -= branch.force[0] * branch.toward[0];
+      xz -= branch.force[0] * branch.toward[1];
+      zx -= branch.force[1] * branch.toward[0];
       sides += 0.5;
-      if (branch.at_wall) wall_force_x += branch.force_x;
+      if (branch.at_wall) wall_force_x += branch.force[0];
     }
     EXPECT_NEAR(cell * total.grain.number, 40, 1e-11);
     EXPECT_NEAR(cell * total.grain.mass, area, 1e-11);
@@ -127,7 +127,8 @@ TEST(MapSums, LineIntegralsAreExactToAThousandthOfTheKernel) {
           {0, -1, static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 1, 0}};
       const CoarseGraining graining = coarse_graining(FlowFrame{}, -6, 6, -6, 6, 0.25, width, 0);
       const MapSums sums = sums_of(graining, snapshot);
-      const HalfBranch branch{0, 0.13, -0.29, -0.55 * std::cos(angle), -0.55 * std::sin(angle), 0, 0, true};
+      const HalfBranch<2> branch{
+          0, {0.13, -0.29}, {-0.55 * std::cos(angle), -0.55 * std::sin(angle)}, {}, true};
       const double trace = 0.55;  // F.b: a force of 1 along a branch of 0.55
       for (std::size_t node = 0; node < sums.nodes.size(); ++node) {
         const double x = graining.grid.x_of(node % graining.grid.columns),
@@ -136,8 +137,8 @@ TEST(MapSums, LineIntegralsAreExactToAThousandthOfTheKernel) {
         constexpr int steps = 400;
         for (int step = 0; step < steps; ++step) {
           const double t = (step + 0.5) / steps;
-          exact += spline((x - branch.x - t * branch.toward_x) / width) *
-                   spline((z - branch.z - t * branch.toward_z) / width) / (width * width * steps);
+          exact += spline((x - branch.at[0] - t * branch.toward[0]) / width) *
+                   spline((z - branch.at[1] - t * branch.toward[1]) / width) / (width * width * steps);
         }
         const double found = (sums.nodes[node].branch[0] + sums.nodes[node].branch[3]) / trace;
         const double greatest = std::pow(spline(0) / width, 2);

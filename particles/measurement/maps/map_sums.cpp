@@ -19,32 +19,33 @@ using Canvas = NodeCanvas<MapNode>;
 constexpr double longest_piece = 0.6;
 constexpr double gauss_offset = 0.28867513459481288;  // sqrt(3)/6 from the middle of a piece of length 1
 
-void add_half_branch(const HalfBranch& branch, double width, const std::optional<FlowCell>& cell,
+void add_half_branch(const HalfBranch<2>& branch, double width, const std::optional<FlowCell>& cell,
                      Canvas& canvas) {
-  const double length = std::hypot(branch.toward_x, branch.toward_z);
+  const double length = std::hypot(branch.toward[0], branch.toward[1]);
   const double pieces = std::max(1.0, std::ceil(length / (longest_piece * width)));
   const double share = -1 / (2 * pieces);  // b points from the contact to the centre
   const std::array<double, 4> dyad{
-      share * branch.force_x * branch.toward_x, share * branch.force_x * branch.toward_z,
-      share * branch.force_z * branch.toward_x, share * branch.force_z * branch.toward_z};
+      share * branch.force[0] * branch.toward[0], share * branch.force[0] * branch.toward[1],
+      share * branch.force[1] * branch.toward[0], share * branch.force[1] * branch.toward[1]};
   for (double piece = 0; piece < pieces; ++piece)
     for (double offset : {-gauss_offset, gauss_offset}) {
       const double t = (piece + 0.5 + offset) / pieces;
-      canvas.each_image(cell, branch.x + t * branch.toward_x, branch.z + t * branch.toward_z,
+      canvas.each_image(cell, branch.at[0] + t * branch.toward[0], branch.at[1] + t * branch.toward[1],
                         [&](double, double, double x, double z) {
                           canvas.each_node(
                               x, z, [&](MapNode& node, double phi) { add_times(phi, dyad, node.branch); });
                         });
     }
-  const double n_x = branch.toward_x / length, n_z = branch.toward_z / length;
+  const double n_x = branch.toward[0] / length, n_z = branch.toward[1] / length;
   const double wall = branch.at_wall ? 1 : 0;
-  const std::array<double, 7> end{branch.force_x,        branch.force_z, wall * branch.force_x,
-                                  wall * branch.force_z, n_x * n_x / 2,  n_x * n_z / 2,
+  const std::array<double, 7> end{branch.force[0],        branch.force[1], wall * branch.force[0],
+                                  wall * branch.force[1], n_x * n_x / 2,   n_x * n_z / 2,
                                   n_z * n_z / 2};
-  canvas.each_image(
-      cell, branch.x + branch.toward_x, branch.z + branch.toward_z, [&](double, double, double x, double z) {
-        canvas.each_node(x, z, [&](MapNode& node, double phi) { add_times(phi, end, node.contact); });
-      });
+  canvas.each_image(cell, branch.at[0] + branch.toward[0], branch.at[1] + branch.toward[1],
+                    [&](double, double, double x, double z) {
+                      canvas.each_node(x, z,
+                                       [&](MapNode& node, double phi) { add_times(phi, end, node.contact); });
+                    });
 }
 
 struct GrainState {
@@ -122,9 +123,9 @@ void add_snapshot(const CoarseGraining& graining, const Snapshot& snapshot, cons
   const FlowFrame& frame = graining.frame;
   const Period period = period_of(snapshot);
   std::vector<double> force_x(in_frame.x.size()), force_z(in_frame.x.size());  // of all contacts, per grain
-  for (const HalfBranch& branch : in_frame.half_branches()) {
-    force_x[branch.grain] += branch.force_x;
-    force_z[branch.grain] += branch.force_z;
+  for (const HalfBranch<2>& branch : in_frame.half_branches()) {
+    force_x[branch.grain] += branch.force[0];
+    force_z[branch.grain] += branch.force[1];
     add_half_branch(branch, graining.width, in_frame.cell, canvas);
   }
   for (std::size_t i = 0; i < in_frame.x.size(); ++i) {
