@@ -70,6 +70,7 @@ inline HalfBranch<2> FlowSnapshot::half_branch(std::size_t side) const {
           {x[grain], z[grain]},
           {reach * contact.normal_x, reach * contact.normal_z},
           {sign * contact.force_x, sign * contact.force_z},
+          {contact.normal_x, contact.normal_z},
           contact.j < 0};
 }
 

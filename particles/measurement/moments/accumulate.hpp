@@ -12,25 +12,22 @@ namespace drumlin::particles {
 ///   each_centre(grain, action(bin, weight, grain))   its centre, the grain as the bin sees it; add_centre()
 ///   each_share(branch, action(bin, share, branch))   the shares of a half branch; add_share()
 ///   each_end(branch, action(bin, weight, branch))    what counts at one point of a contact; add_end()
-/// Parts and ends are for bins that add them.
+/// A binning without parts or ends is for bins that ask for none.
 template <class Binning, class Bins>
 void add_grain(const Grain<2>& grain, Binning& binning, Bins& bins) {
-  if constexpr (requires { bins[0].add_part(1.0, grain); })
-    binning.each_part(grain, [&](std::size_t bin, double area) { bins[bin].add_part(area, grain); });
-  binning.each_centre(grain, [&](std::size_t bin, const auto& weight, const Grain<2>& seen) {
-    bins[bin].add_centre(weight, seen);
-  });
+  if constexpr (requires { binning.each_part(grain, [](std::size_t, double) {}); })
+    binning.each_part(grain, [&](auto bin, double area) { bins[bin].add_part(area, grain); });
+  binning.each_centre(
+      grain, [&](auto bin, const auto& weight, const Grain<2>& seen) { bins[bin].add_centre(weight, seen); });
 }
 
 template <class Binning, class Bins>
 void add_branch(const HalfBranch<2>& branch, Binning& binning, Bins& bins) {
-  binning.each_share(branch, [&](std::size_t bin, double share, const HalfBranch<2>& seen) {
-    bins[bin].add_share(share, seen);
-  });
-  if constexpr (requires { bins[0].add_end(1.0, branch); })
-    binning.each_end(branch, [&](std::size_t bin, double weight, const HalfBranch<2>& seen) {
-      bins[bin].add_end(weight, seen);
-    });
+  binning.each_share(
+      branch, [&](auto bin, double share, const HalfBranch<2>& seen) { bins[bin].add_share(share, seen); });
+  if constexpr (requires { binning.each_end(branch, [](auto, double, const HalfBranch<2>&) {}); })
+    binning.each_end(
+        branch, [&](auto bin, double weight, const HalfBranch<2>& seen) { bins[bin].add_end(weight, seen); });
 }
 
 /// All grains, then all half branches.

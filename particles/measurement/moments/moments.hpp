@@ -44,6 +44,7 @@ struct HalfBranch {
   Vector<D> at{};        ///< centre of the grain
   Vector<D> toward{};    ///< from the centre to the contact
   Vector<D> force{};     ///< on the grain
+  Vector<D> normal{};    ///< along `toward` or against it, of length 1 in single precision
   bool at_wall = false;  ///< the other side is a wall
 
   Vector<D> point(double share) const {
