@@ -98,21 +98,21 @@ TEST(MapSums, TotalsAreThoseOfTheGrainsAndContacts) {
       area += own;
       momentum_x += own * in_frame.v_x[i];
     }
-    for (const HalfBranch& branch : in_frame.half_branches()) {
-      xx -= branch.force_x * branch.toward_x;
-      xz -= branch.force_x * branch.toward_z;
-      zx -= branch.force_z * branch.toward_x;
+    for (const HalfBranch<2>& branch : in_frame.half_branches()) {
+      xx -= branch.force[0] * branch.toward[0];
+      xz -= branch.force[0] * branch.toward[1];
+      zx -= branch.force[1] * branch.toward[0];
       sides += 0.5;
-      if (branch.at_wall) wall_force_x += branch.force_x;
+      if (branch.at_wall) wall_force_x += branch.force[0];
     }
-    EXPECT_NEAR(cell * total.grain.number, 40, 1e-11);
-    EXPECT_NEAR(cell * total.grain.mass, area, 1e-11);
-    EXPECT_NEAR(cell * total.grain.v_x, momentum_x, 1e-11);
-    EXPECT_NEAR(cell * total.branch[0], xx, 1e-11);
-    EXPECT_NEAR(cell * total.branch[1], xz, 1e-11);
-    EXPECT_NEAR(cell * total.branch[2], zx, 1e-11);
-    EXPECT_NEAR(cell * total.contact[2], wall_force_x, 1e-11);
-    EXPECT_NEAR(cell * (total.contact[4] + total.contact[6]), sides, 1e-5);  // normals are stored as floats
+    EXPECT_NEAR(cell * total.grains, 40, 1e-11);
+    EXPECT_NEAR(cell * total.motion.weight, area, 1e-11);
+    EXPECT_NEAR(cell * total.momentum[0], momentum_x, 1e-11);
+    EXPECT_NEAR(cell * total.force_branch[0][0], xx, 1e-11);
+    EXPECT_NEAR(cell * total.force_branch[0][1], xz, 1e-11);
+    EXPECT_NEAR(cell * total.force_branch[1][0], zx, 1e-11);
+    EXPECT_NEAR(cell * total.wall_force[0], wall_force_x, 1e-11);
+    EXPECT_NEAR(cell * (total.fabric[0] + total.fabric[2]), sides, 1e-5);  // normals are stored as floats
     EXPECT_NEAR(cell * total.slope_x[0], 0, 1e-11);
   }
 }
@@ -127,7 +127,8 @@ TEST(MapSums, LineIntegralsAreExactToAThousandthOfTheKernel) {
           {0, -1, static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 1, 0}};
       const CoarseGraining graining = coarse_graining(FlowFrame{}, -6, 6, -6, 6, 0.25, width, 0);
       const MapSums sums = sums_of(graining, snapshot);
-      const HalfBranch branch{0, 0.13, -0.29, -0.55 * std::cos(angle), -0.55 * std::sin(angle), 0, 0, true};
+      const HalfBranch<2> branch{0,  {0.13, -0.29}, {-0.55 * std::cos(angle), -0.55 * std::sin(angle)}, {},
+                                 {}, true};
       const double trace = 0.55;  // F.b: a force of 1 along a branch of 0.55
       for (std::size_t node = 0; node < sums.nodes.size(); ++node) {
         const double x = graining.grid.x_of(node % graining.grid.columns),
@@ -136,10 +137,11 @@ TEST(MapSums, LineIntegralsAreExactToAThousandthOfTheKernel) {
         constexpr int steps = 400;
         for (int step = 0; step < steps; ++step) {
           const double t = (step + 0.5) / steps;
-          exact += spline((x - branch.x - t * branch.toward_x) / width) *
-                   spline((z - branch.z - t * branch.toward_z) / width) / (width * width * steps);
+          exact += spline((x - branch.at[0] - t * branch.toward[0]) / width) *
+                   spline((z - branch.at[1] - t * branch.toward[1]) / width) / (width * width * steps);
         }
-        const double found = (sums.nodes[node].branch[0] + sums.nodes[node].branch[3]) / trace;
+        const double found =
+            (sums.nodes[node].force_branch[0][0] + sums.nodes[node].force_branch[1][1]) / trace;
         const double greatest = std::pow(spline(0) / width, 2);
         ASSERT_NEAR(found, exact, 1e-3 * greatest) << width << " " << angle;
       }
@@ -155,13 +157,15 @@ double divergence_error(double spacing) {
   for (std::size_t row = 1; row + 1 < graining.grid.rows; ++row)
     for (std::size_t column = 1; column + 1 < columns; ++column) {
       const std::size_t at = row * columns + column;
-      const auto branch = [&](std::size_t node, std::size_t c) { return sums.nodes[node].branch[c]; };
+      const auto branch = [&](std::size_t node, std::size_t c) {
+        return sums.nodes[node].force_branch[c / 2][c % 2];
+      };
       for (std::size_t c : {0, 1}) {  // forces along x and z
         const double divergence =
             (branch(at + 1, 2 * c) - branch(at - 1, 2 * c)) / (2 * spacing) +
             (branch(at + columns, 2 * c + 1) - branch(at - columns, 2 * c + 1)) / (2 * spacing);
         const MapNode& node = sums.nodes[at];
-        const double summed = node.contact[c] - (c == 0 ? node.grain.force_x : node.grain.force_z);
+        const double summed = node.contact_force[c] - node.force[c];
         greatest = std::max(greatest, std::abs(divergence - summed));
       }
     }
@@ -181,8 +185,8 @@ TEST(MapSums, PeriodicMapsDoNotCareWhereThePeriodBegins) {
   const MapSums a = sums_of(graining, snapshot), b = sums_of(graining, moved);
   ASSERT_EQ(graining.grid.columns, 6u);
   for (std::size_t node = 0; node < a.nodes.size(); ++node) {
-    EXPECT_NEAR(a.nodes[node].grain.mass, b.nodes[node].grain.mass, 1e-12);
-    EXPECT_NEAR(a.nodes[node].branch[3], b.nodes[node].branch[3], 1e-11);
+    EXPECT_NEAR(a.nodes[node].motion.weight, b.nodes[node].motion.weight, 1e-12);
+    EXPECT_NEAR(a.nodes[node].force_branch[1][1], b.nodes[node].force_branch[1][1], 1e-11);
   }
 }
 

@@ -107,7 +107,7 @@ TEST(Rings, AreasAreThoseOfTheDiscs) {
   const LayerGrid grid = ring_grid(3, -2, 0.7, 20, 0);
   const LayerSums sums = sums_of(grid, snapshot);
   double covered = 0, area = 0;
-  for (const LayerSum& ring : sums.layers) covered += ring.covered;
+  for (const LayerSum& ring : sums.layers) covered += ring.solid;
   for (const double radius : snapshot.radius) area += std::numbers::pi * radius * radius;
   EXPECT_NEAR(covered, area, 1e-8);
   double whole = 0;
@@ -140,14 +140,14 @@ TEST(LayerSums, OfTheStressesIsThatOfTheContactsWhateverTheBins) {
   const Snapshot column = testing::stacked_columns(6, 9, 0.3);
   double trace = 0;
   const FlowSnapshot in_frame = seen(column, {});
-  for (const HalfBranch& b : in_frame.half_branches())
-    trace -= b.force_x * b.toward_x + b.force_z * b.toward_z;
+  for (const HalfBranch<2>& b : in_frame.half_branches())
+    trace -= b.force[0] * b.toward[0] + b.force[1] * b.toward[1];
   for (const LayerGrid& grid :
        {ring_grid(0, 4.5, 0.6, 30, 0), ring_grid(2.3, 4.5, 0.6, 30, 0), ring_grid(-4, 4.5, 0.6, 30, 0),
         height_grid(-1, 7, {-1, 7, -1, 11}, 0.3), width_grid(-1, 11, {-1, 7, -1, 11}, 0.7)}) {
     const LayerSums sums = sums_of(grid, column);
     double total = 0;
-    for (const LayerSum& ring : sums.layers) total += ring.force_branch.xx + ring.force_branch.zz;
+    for (const LayerSum& ring : sums.layers) total += ring.force_branch[0][0] + ring.force_branch[1][1];
     EXPECT_NEAR(total, trace, 1e-9);
   }
 }

@@ -9,18 +9,9 @@
 
 #include "particles/bodies/snapshot.hpp"
 #include "particles/measurement/frame/flow_frame.hpp"
+#include "particles/measurement/moments/moments.hpp"
 
 namespace drumlin::particles {
-
-/// One grain's side of a contact: from its centre to the contact. Both sides together are the branch; across
-/// a periodic boundary each stays with its grain, and a wall has none.
-struct HalfBranch {
-  std::uint32_t grain = 0;
-  double x = 0, z = 0;                ///< centre of the grain
-  double toward_x = 0, toward_z = 0;  ///< from the centre to the contact
-  double force_x = 0, force_z = 0;    ///< on the grain
-  bool at_wall = false;               ///< the other side is a wall
-};
 
 /// A loaded contact in the flow frame; the normal points from body j to grain i.
 struct FlowContact {
@@ -48,6 +39,15 @@ struct FlowSnapshot {
   std::optional<FlowCell> cell;
 
   double density_of(std::size_t grain) const { return density.empty() ? 1 : density[grain]; }
+  Grain<2> grain(std::size_t i) const {
+    return {i,
+            {x[i], z[i]},
+            {v_x[i], v_z[i]},
+            radius[i],
+            density_of(i),
+            static_cast<double>(coordination[i]),
+            spin.empty() ? 0 : spin[i]};
+  }
   /// Both sides of each contact in turn, that of i first; a wall has none. Each is made when it is looked at:
   /// stored they would take three times the memory of the contacts.
   auto half_branches() const {
@@ -58,21 +58,19 @@ struct FlowSnapshot {
   }
 
  private:
-  HalfBranch half_branch(std::size_t side) const;
+  HalfBranch<2> half_branch(std::size_t side) const;
 };
 
-inline HalfBranch FlowSnapshot::half_branch(std::size_t side) const {
+inline HalfBranch<2> FlowSnapshot::half_branch(std::size_t side) const {
   const FlowContact& contact = contacts[side / 2];
   const double sign = side % 2 == 0 ? 1 : -1;
   const auto grain = static_cast<std::uint32_t>(side % 2 == 0 ? contact.i : contact.j);
   const double reach = -sign * radius[grain];
   return {grain,
-          x[grain],
-          z[grain],
-          reach * contact.normal_x,
-          reach * contact.normal_z,
-          sign * contact.force_x,
-          sign * contact.force_z,
+          {x[grain], z[grain]},
+          {reach * contact.normal_x, reach * contact.normal_z},
+          {sign * contact.force_x, sign * contact.force_z},
+          {contact.normal_x, contact.normal_z},
           contact.j < 0};
 }
 

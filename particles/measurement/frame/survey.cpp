@@ -59,9 +59,9 @@ void add_bulk(const Snapshot& snapshot, const FlowFrame& frame, TimeSeries& seri
   to_flow_frame(snapshot, frame, VelocityKind::window, seen);
   double area = 0, trace = 0, shear = 0;
   for (const double radius : seen.radius) area += std::numbers::pi * radius * radius;
-  for (const HalfBranch& branch : seen.half_branches()) {
-    trace -= branch.force_x * branch.toward_x + branch.force_z * branch.toward_z;
-    shear += branch.force_x * branch.toward_z;
+  for (const HalfBranch<2>& branch : seen.half_branches()) {
+    trace -= branch.force[0] * branch.toward[0] + branch.force[1] * branch.toward[1];
+    shear += branch.force[0] * branch.toward[1];
   }
   std::vector<double> heights, velocities;
   for (std::size_t i = 0; i < seen.x.size(); ++i) {

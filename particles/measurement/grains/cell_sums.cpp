@@ -9,7 +9,7 @@ namespace drumlin::particles {
 void add_cells(const LayerGrid& of_all, const Snapshot& snapshot, const FlowSnapshot& in_frame,
                LayerSums& sums) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const LayerGrid grid = of_all.closed ? of_all.in_cell(*in_frame.cell) : of_all;
+  const LayerGrid grid = of_all.in_cell(in_frame);
   VoronoiTessellation tessellation(snapshot);
   std::vector<double> areas(in_frame.x.size(), none);
   std::vector<LayerSum::Cells*> layer_of(in_frame.x.size(), nullptr);
@@ -30,13 +30,13 @@ void add_cells(const LayerGrid& of_all, const Snapshot& snapshot, const FlowSnap
   sums.snapshots.cells += 1;
   if (!in_frame.contacts_known)
     for (LayerSum& sum : sums.layers) sum.cells.stress_xx = sum.cells.stress_zz = sum.cells.stress_xz = none;
-  for (const HalfBranch& half : in_frame.half_branches()) {
+  for (const HalfBranch<2>& half : in_frame.half_branches()) {
     if (layer_of[half.grain] == nullptr) continue;
     LayerSum::Cells& sum = *layer_of[half.grain];
     const double area = areas[half.grain];
-    sum.stress_xx -= half.force_x * half.toward_x / area;
-    sum.stress_zz -= half.force_z * half.toward_z / area;
-    sum.stress_xz += half.force_x * half.toward_z / area;
+    sum.stress_xx -= half.force[0] * half.toward[0] / area;
+    sum.stress_zz -= half.force[1] * half.toward[1] / area;
+    sum.stress_xz += half.force[0] * half.toward[1] / area;
   }
 }
 

@@ -14,10 +14,10 @@ void add_contact_stress(const FlowSnapshot& in_frame, const std::vector<double>&
                         GrainStress& stress) {
   const std::size_t count = cell_area.size();
   for (auto* component : {&stress.xx, &stress.zz, &stress.xz}) component->assign(count, 0.0);
-  for (const HalfBranch& half : in_frame.half_branches()) {  // `toward` is against b
-    stress.xx[half.grain] -= half.force_x * half.toward_x;
-    stress.zz[half.grain] -= half.force_z * half.toward_z;
-    stress.xz[half.grain] += half.force_x * half.toward_z;
+  for (const HalfBranch<2>& half : in_frame.half_branches()) {  // `toward` is against b
+    stress.xx[half.grain] -= half.force[0] * half.toward[0];
+    stress.zz[half.grain] -= half.force[1] * half.toward[1];
+    stress.xz[half.grain] += half.force[0] * half.toward[1];
   }
   for (auto* component : {&stress.xx, &stress.zz, &stress.xz})
     for (std::size_t i = 0; i < count; ++i) (*component)[i] /= cell_area[i];

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "coupling/results/layer_ratios.hpp"
+
 namespace drumlin::particles {
 namespace {
 
@@ -104,26 +106,6 @@ double area_of(const LayerGrid& grid, const LayerSums& sums, std::size_t layer) 
 
 double mean(double sum, double count) { return count > 0 ? sum / count : Of::none; }
 
-double covariance(double product_sum, double a_sum, double b_sum, double count) {
-  return count > 0 ? product_sum / count - a_sum / count * (b_sum / count) : Of::none;
-}
-
-/// Second moments of the velocity in one layer, v_x counted from its mean profile v_x(z) and not from one
-/// number per layer: otherwise shear within a layer would pass for fluctuation.
-struct VelocityMoments {
-  double xx, zz, xz;
-};
-
-/// `shear_rate`: dv_x/dz; one that is not finite counts as 0. No variance falls below zero by rounding.
-VelocityMoments velocity_moments(const Moments& sum, double shear_rate) {
-  const double slope = std::isfinite(shear_rate) ? shear_rate : 0, n = sum.weight;
-  const double xx = covariance(sum.v_x_v_x, sum.v_x, sum.v_x, n) -
-                    2 * slope * covariance(sum.zeta_v_x, sum.zeta, sum.v_x, n) +
-                    slope * slope * covariance(sum.zeta_zeta, sum.zeta, sum.zeta, n);
-  return {std::max(0.0, xx), std::max(0.0, covariance(sum.v_z_v_z, sum.v_z, sum.v_z, n)),
-          covariance(sum.v_x_v_z, sum.v_x, sum.v_z, n)};
-}
-
 /// Slope of v_x: (v[l + 1] - v[l - 1]) / (2 thickness), NaN beside an empty layer and at the ends of an open
 /// grid. Beyond those of a cell follow images, which move with it. In rings that of v_t/r, times r.
 void set_shear(const LayerGrid& grid, const LayerSums& sums, std::vector<LayerValues>& layers) {
@@ -138,54 +120,57 @@ void set_shear(const LayerGrid& grid, const LayerSums& sums, std::vector<LayerVa
   }
 }
 
+/// Components of the spreads of a layer.
+enum { of_v_x, of_v_z, of_x, of_zeta };
+
 /// Slope of v_z over x within a layer: the other half of the vorticity.
-double normal_velocity_slope(const LayerSum& sum) {
-  const double count = sum.grains.weight, spread = covariance(sum.x_x, sum.x, sum.x, count);
-  return count > 2 && spread > 0 ? covariance(sum.x_v_z, sum.x, sum.grains.v_z, count) / spread : Of::none;
+double normal_velocity_slope(const Spread<4>& each) {
+  const double spread = each.covariance(of_x, of_x);
+  return each.weight > 2 && spread > 0 ? each.covariance(of_x, of_v_z) / spread : Of::none;
 }
 
 /// Mean angular velocity about the centre of rings, clockwise: sum of v_t r / sum of r^2.
-double angular_velocity(const Moments& sum, double r) {
-  const double inertia = sum.zeta_zeta + 2 * r * sum.zeta + sum.weight * r * r;
-  return inertia > 0 ? (sum.zeta_v_x + r * sum.v_x) / inertia : Of::none;
+double angular_velocity(const Spread<4>& each, double r) {
+  const double inertia = each.product(of_zeta, of_zeta) + 2 * r * each.first[of_zeta] + each.weight * r * r;
+  return inertia > 0 ? (each.product(of_v_x, of_zeta) + r * each.first[of_v_x]) / inertia : Of::none;
 }
+
+/// The gradient of a mean profile v_x(z) within a layer: otherwise shear would pass for fluctuation. A slope
+/// that is not finite counts as 0.
+Tensor<2> sheared(double slope) { return {{{0, std::isfinite(slope) ? slope : 0}, {0, 0}}}; }
 
 /// Total stress = contact + kinetic. The rotational part stands beside them: momentum is balanced by the
 /// motion of the centres, to which it does not belong. `slope`: of the mean v_x within the layer.
 void set_stress(const LayerSum& sum, double area, double slope, bool with_contacts, LayerValues& f) {
-  if (const double n = sum.grains.weight; n > 0) {
-    // Per unit of nu: grains of several densities count by their mass per area, about the velocity of their
-    // centre of mass.
-    const VelocityMoments moments = velocity_moments(sum.mass, slope);
-    const double density = sum.mass.weight / n;
-    f.sigma_xx_kinetic = f.nu * (density * moments.xx);
-    f.sigma_zz_kinetic = f.nu * (density * moments.zz);
-    // The traction of the upper layer on the lower one is against the flux of x momentum along +z.
-    f.sigma_xz_kinetic = -(f.nu * (density * moments.xz));
-  }
+  // Per unit of nu: grains of several densities count by their mass per area, about the velocity of their
+  // centre of mass.
+  const double density = f.nu * (sum.motion.weight / sum.grains);
+  const Fields<2> fields = derive(sum, Background<2>{area, sheared(slope), density});
+  f.sigma_xx_kinetic = fields.kinetic[0][0];
+  f.sigma_zz_kinetic = fields.kinetic[1][1];
+  // The traction of the upper layer on the lower one is against the flux of x momentum along +z. Here nothing
+  // is taken off: whether a grain is high in its layer and whether it rises are independent.
+  if (sum.grains > 0) f.sigma_xz_kinetic = -density * sum.motion.covariance(of_v_x, of_v_z);
   f.sigma_rotational = sum.rotation / area;
   if (!with_contacts) return;
-  f.sigma_xx = sum.force_branch.xx / area + f.sigma_xx_kinetic;
-  f.sigma_zz = sum.force_branch.zz / area + f.sigma_zz_kinetic;
-  f.sigma_xz = -sum.force_branch.xz / area + f.sigma_xz_kinetic;
-  f.coordination = mean(sum.contacts, sum.grains.weight);
-  if (!(f.sigma_zz > 0)) return;
-  f.I = f.shear_rate / std::sqrt(f.sigma_zz);
-  // Not tau:D/(2 |D| p), the mu of a law: in a creeping bed their axes differ (docs/theory/measurement.md).
-  f.mu = f.sigma_xz / f.sigma_zz;
-  f.k = f.sigma_xx / f.sigma_zz;
+  f.sigma_xx = fields.contact[0][0] + f.sigma_xx_kinetic;
+  f.sigma_zz = fields.contact[1][1] + f.sigma_zz_kinetic;
+  f.sigma_xz = -fields.contact[0][1] + f.sigma_xz_kinetic;
+  f.coordination = fields.coordination;
+  const LayerRatios ratios = layer_ratios({f.sigma_xx, f.sigma_zz, f.sigma_xz}, f.shear_rate);
+  f.I = ratios.I, f.mu = ratios.mu, f.k = ratios.k;
 }
 
-void set_fluctuations(const Moments& grains, LayerValues& f) {
+void set_fluctuations(const Spread<4>& each, LayerValues& f) {
   // The paper takes v_x(z) e_x off the velocity and nothing off its z component.
-  if (grains.weight > 1)
-    f.dv = std::sqrt(velocity_moments(grains, f.shear_rate).xx + grains.v_z_v_z / grains.weight);
+  if (each.weight > 1)
+    f.dv = std::sqrt(fluctuation<2>(each, sheared(f.shear_rate), of_v_x, of_v_x) +
+                     each.product(of_v_z, of_v_z) / each.weight);
 }
 
 void set_spins(const LayerSum& sum, LayerValues& f) {
   f.omega = mean(sum.spin, f.count);
-  if (f.count > 1)
-    f.domega = std::sqrt(std::max(0.0, covariance(sum.spin_spin, sum.spin, sum.spin, f.count)));
+  if (f.count > 1) f.domega = std::sqrt(std::max(0.0, sum.spin_spin / f.count - f.omega * f.omega));
 }
 
 void set_cells(const LayerSum::Cells& sum, LayerValues& f) {
@@ -202,17 +187,17 @@ KnownQuantities known_of(const LayerSums::Snapshots& s) {
 }
 
 void set_means(const LayerGrid& grid, const LayerSum& sum, double area, LayerValues& f) {
-  const double count = f.count = sum.grains.weight;
-  f.v_x = grid.rings ? angular_velocity(sum.grains, f.z) : mean(sum.grains.v_x, count);
-  f.v_z = mean(sum.grains.v_z, count);
-  f.nu = mean(sum.covered, area);
-  f.density = mean(sum.covered_mass, area);
+  f.count = sum.grains;
+  f.v_x = grid.rings ? angular_velocity(sum.each, f.z) : sum.each.mean(of_v_x);
+  f.v_z = sum.each.mean(of_v_z);
+  f.nu = mean(sum.solid, area);
+  f.density = mean(sum.solid_mass, area);
 }
 
 /// Returns the slope of v_x within the layer. In rings v_x has been the angular velocity until now.
 double set_vorticity(const LayerGrid& grid, const LayerSum& sum, LayerValues& f) {
   if (!grid.rings) {
-    f.half_vorticity = (f.shear_rate - normal_velocity_slope(sum)) / 2;
+    f.half_vorticity = (f.shear_rate - normal_velocity_slope(sum.each)) / 2;
     return f.shear_rate;
   }
   const double angular = f.v_x;
@@ -236,7 +221,7 @@ double surface_height(const LayerGrid& grid, const LayerSums& sums, double surfa
   if (grid.closed) return grid.z_max();
   double above = 0;
   for (std::size_t l = grid.layers(); l-- > 0;) {
-    const double here = mean(sums.layers[l].covered, area_of(grid, sums, l));
+    const double here = mean(sums.layers[l].solid, area_of(grid, sums, l));
     if (here >= surface_nu) return grid.z_of(l) + grid.thickness * (here - surface_nu) / (here - above);
     if (!std::isnan(here)) above = here;
   }
@@ -246,7 +231,7 @@ double surface_height(const LayerGrid& grid, const LayerSums& sums, double surfa
 Profile profile_of(const LayerGrid& grid, const LayerSums& sums, double surface_z) {
   std::size_t first = 0, end = grid.layers();
   while (first < end && !(grid.area[first] > 0)) ++first;
-  while (!grid.closed && end > first && !(sums.layers[end - 1].covered > 0)) --end;
+  while (!grid.closed && end > first && !(sums.layers[end - 1].solid > 0)) --end;
   Profile profile{std::vector<LayerValues>(end - first), known_of(sums.snapshots), surface_z};
   auto& layers = profile.layers;
   for (std::size_t l = 0; l < layers.size(); ++l) {
@@ -259,7 +244,7 @@ Profile profile_of(const LayerGrid& grid, const LayerSums& sums, double surface_
     const LayerSum& sum = sums.layers[first + l];
     const double slope = set_vorticity(grid, sum, layers[l]);
     set_stress(sum, area_of(grid, sums, first + l), slope, profile.known.contacts, layers[l]);
-    set_fluctuations(sum.grains, layers[l]);
+    set_fluctuations(sum.each, layers[l]);
     set_cells(sum.cells, layers[l]);
     if (profile.known.spin) set_spins(sum, layers[l]);
   }

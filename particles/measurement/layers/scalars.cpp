@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "coupling/results/layer_ratios.hpp"
 #include "coupling/results/profile_scalars.hpp"
 #include "coupling/statistics/straight_line.hpp"
 #include "particles/measurement/frame/measurement_frame.hpp"
@@ -196,15 +197,16 @@ ScalarSet packing_scalars(const Profile& profile, const ProfilePlace& place,
 ScalarSet bulk_scalars(const Profile& profile, double wall_z, double margin, bool closed) {
   const Layers& layers = profile.layers;
   const Zone bulk{wall_z + (closed ? 0 : margin), closed ? 0 : top_of(layers) - margin};
-  const double rate = mean_over(layers, bulk, &Of::shear_rate),
-               normal = mean_over(layers, bulk, &Of::sigma_zz),
-               shear = mean_over(layers, bulk, &Of::sigma_xz), pressed = normal > 0 ? normal : Of::none;
+  const double rate = mean_over(layers, bulk, &Of::shear_rate);
+  const LayerStress sigma{mean_over(layers, bulk, &Of::sigma_xx), mean_over(layers, bulk, &Of::sigma_zz),
+                          mean_over(layers, bulk, &Of::sigma_xz)};
+  const LayerRatios ratios = layer_ratios(sigma, rate);
   return scalars_of({{"bulk_nu", mean_over(layers, bulk, &Of::nu)},
                      {"bulk_shear_rate", rate},
-                     {"bulk_sigma_zz", normal},
-                     {"bulk_sigma_xz", shear},
-                     {"bulk_mu", shear / pressed},
-                     {"bulk_I", rate / std::sqrt(pressed)}});
+                     {"bulk_sigma_zz", sigma.zz},
+                     {"bulk_sigma_xz", sigma.xz},
+                     {"bulk_mu", ratios.mu},
+                     {"bulk_I", ratios.I}});
 }
 
 bool belongs_to_a_drum(const std::string& name) {

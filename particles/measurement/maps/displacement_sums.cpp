@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "particles/measurement/maps/node_canvas.hpp"
+#include "particles/measurement/frame/intervals.hpp"
 
 namespace drumlin::particles {
 void DisplacementDepositor::find_ends(const Snapshot& snapshot, Ends& ends) {
@@ -29,7 +29,6 @@ void DisplacementDepositor::find_ends(const Snapshot& snapshot, Ends& ends) {
 
 void DisplacementDepositor::add_pair(const Ends& from, const Ends& to, const Snapshot& snapshot,
                                      MapSums& sums) const {
-  NodeCanvas<MapNode> canvas(graining_, sums.nodes);
   const FlowFrame& frame = graining_.frame;
   const double time = to.time - from.time, angle = (from.angle + to.angle) / 2;
   const double cosine = std::cos(angle), sine = std::sin(angle);
@@ -40,6 +39,7 @@ void DisplacementDepositor::add_pair(const Ends& from, const Ends& to, const Sna
     const Period& half_way = path->half_way();
     images = FlowCell{0, half_way.length_z, half_way.offset, half_way.length, 0, 0, 0};
   }
+  const KernelGrid binning(graining_, images);
   for (const auto& [before, i] : same_grains(from.id, from.x.size(), to.id, to.x.size())) {
     double d_x = to.x[i] - from.x[before], d_z = to.z[i] - from.z[before];
     if (path) {
@@ -56,21 +56,22 @@ void DisplacementDepositor::add_pair(const Ends& from, const Ends& to, const Sna
     const double mass = mass_of(snapshot, i);
     const std::array<double, 3> moments{mass * time, mass * frame.along(moved_x, moved_z),
                                         mass * frame.normal(moved_x, moved_z)};
-    const auto add_image = [&](double columns, double rows, double at_x, double at_z) {
+    const Vector<2> place{frame.x_of(snapshot.container_x + lab_x, snapshot.container_z + lab_z),
+                          frame.z_of(snapshot.container_x + lab_x, snapshot.container_z + lab_z)};
+    binning.each_image(place, 0, [&](double columns, double rows, const Vector<2>& at) {
       std::array<double, 3> of_image = moments;
       if (path) {  // the cell moves its images
         const Point more =
             path->change({columns * images->length + rows * images->offset, rows * images->height});
         of_image[1] += mass * more.x, of_image[2] += mass * more.z;
       }
-      canvas.each_node_with_slope(at_x, at_z, [&](MapNode& node, double phi, double phi_x, double phi_z) {
-        add_times(phi, of_image, node.moved);
-        add_times(phi_x, of_image, node.moved_slope_x);
-        add_times(phi_z, of_image, node.moved_slope_z);
+      binning.each_node(at, [&](MapPlace place_of_node, const KernelWeight& weight) {
+        MapNode& node = sums.nodes[place_of_node];
+        add_times(weight.phi, of_image, node.moved);
+        add_times(weight.phi_x, of_image, node.moved_slope_x);
+        add_times(weight.phi_z, of_image, node.moved_slope_z);
       });
-    };
-    canvas.each_image(images, frame.x_of(snapshot.container_x + lab_x, snapshot.container_z + lab_z),
-                      frame.z_of(snapshot.container_x + lab_x, snapshot.container_z + lab_z), add_image);
+    });
   }
   sums.snapshots.pairs += 1;
   sums.snapshots.time += time;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "particles/measurement/frame/intervals.hpp"
+
 namespace drumlin::particles {
 namespace {
 
@@ -71,10 +73,9 @@ double slope_of(double slope, double mean, double slope_of_weight, double weight
 }
 
 void set_velocity(const MapNode& m, MapValues& f) {
-  const double mass = m.grain.mass;
-  f.v_x = m.grain.v_x / mass;
-  f.v_z = m.grain.v_z / mass;
-  f.omega = m.grain.spin / m.grain.number;
+  const double mass = m.motion.weight;
+  f.v_x = m.momentum[0] / mass;
+  f.v_z = m.momentum[1] / mass;
   f.d_v_x_dx = slope_of(m.slope_x[1], f.v_x, m.slope_x[0], mass);
   f.d_v_x_dz = slope_of(m.slope_z[1], f.v_x, m.slope_z[0], mass);
   f.d_v_z_dx = slope_of(m.slope_x[2], f.v_z, m.slope_x[0], mass);
@@ -84,44 +85,35 @@ void set_velocity(const MapNode& m, MapValues& f) {
 }
 
 /// `inside`: share of the kernel within the container.
-void set_stress(const MapNode& m, double inside, MapValues& f) {
-  const double mass = m.grain.mass, u_x = m.grain.u_x / mass, u_z = m.grain.u_z / mass;
-  const double flux_xz = m.grain.u_x_u_z - mass * u_x * u_z;
-  const PlaneMatrix kinetic{m.grain.u_x_u_x - mass * u_x * u_x, flux_xz, flux_xz,
-                            m.grain.u_z_u_z - mass * u_z * u_z};
-  const PlaneMatrix pressure{(m.branch[0] + kinetic.xx) / inside, (m.branch[1] + kinetic.xz) / inside,
-                             (m.branch[2] + kinetic.zx) / inside, (m.branch[3] + kinetic.zz) / inside};
-  f.sigma_xx_kinetic = kinetic.xx / inside;
-  f.sigma_zz_kinetic = kinetic.zz / inside;
-  f.sigma_xz_kinetic = -kinetic.xz / inside;
+void set_fields(const MapNode& m, double inside, MapValues& f) {
+  const Fields<2> fields = derive(m, Background<2>{inside});
+  const auto [along_x, along_z] = fields.pressure();
+  f.omega = fields.omega;
+  f.coordination = fields.coordination;
+  f.sigma_xx_kinetic = fields.kinetic[0][0];
+  f.sigma_zz_kinetic = fields.kinetic[1][1];
+  f.sigma_xz_kinetic = -fields.kinetic[0][1];
   // The reported shear stress is the traction of the upper side on the lower one.
-  f.sigma_xx = pressure.xx;
-  f.sigma_zz = pressure.zz;
-  f.sigma_xz = -pressure.xz;
-  f.sigma_zx = -pressure.zx;
-  static_cast<PlaneInvariants&>(f) =
-      plane_invariants(pressure, {f.d_v_x_dx, f.d_v_x_dz, f.d_v_z_dx, f.d_v_z_dz});
-}
-
-void set_contacts(const MapNode& m, double inside, MapValues& f) {
-  f.coordination = m.grain.contacts / m.grain.number;
-  const double sides = m.contact[4] + m.contact[6];
-  if (sides > 0) {
-    f.fabric_xx = m.contact[4] / sides;
-    f.fabric_xz = m.contact[5] / sides;
-    f.fabric_zz = m.contact[6] / sides;
-  }
-  f.wall_x = m.contact[2] / inside;
-  f.wall_z = m.contact[3] / inside;
+  f.sigma_xx = along_x[0];
+  f.sigma_zz = along_z[1];
+  f.sigma_xz = -along_x[1];
+  f.sigma_zx = -along_z[0];
+  static_cast<PlaneInvariants&>(f) = plane_invariants({along_x[0], along_x[1], along_z[0], along_z[1]},
+                                                      {f.d_v_x_dx, f.d_v_x_dz, f.d_v_z_dx, f.d_v_z_dz});
+  f.fabric_xx = fields.fabric[0][0];
+  f.fabric_xz = fields.fabric[0][1];
+  f.fabric_zz = fields.fabric[1][1];
+  f.wall_x = m.wall_force[0] / inside;
+  f.wall_z = m.wall_force[1] / inside;
 }
 
 /// Balance of momentum in the laboratory, whose axes at this instant are those of the frame:
 /// div(contact stress) + div(sum m u u phi) = density g + force of the walls, all without the share inside.
 void set_balance(const MapNode& m, double gravity_x, double gravity_z, MapValues& f) {
-  const double mass = m.grain.mass, weight = mass * std::hypot(gravity_x, gravity_z);
+  const double mass = m.motion.weight, weight = mass * std::hypot(gravity_x, gravity_z);
   if (!(weight > 0)) return;
-  const double contact_x = m.contact[0] - m.grain.force_x, contact_z = m.contact[1] - m.grain.force_z;
-  const double u_x = m.grain.u_x / mass, u_z = m.grain.u_z / mass;
+  const double contact_x = m.contact_force[0] - m.force[0], contact_z = m.contact_force[1] - m.force[1];
+  const double u_x = m.motion.mean(0), u_z = m.motion.mean(1);
   // div(nu U U) of the mean velocity U: what is left of the flux is the kinetic stress.
   const double divergence = m.slope_x[3] + m.slope_z[4];
   const auto mean_flux = [&](double u, std::size_t moment) {
@@ -129,7 +121,7 @@ void set_balance(const MapNode& m, double gravity_x, double gravity_z, MapValues
     return u * divergence + along - u * (u_x * m.slope_x[0] + u_z * m.slope_z[0]);
   };
   const double inertia_x = mean_flux(u_x, 3), inertia_z = mean_flux(u_z, 4);
-  const double load_x = mass * gravity_x + m.contact[2], load_z = mass * gravity_z + m.contact[3];
+  const double load_x = mass * gravity_x + m.wall_force[0], load_z = mass * gravity_z + m.wall_force[1];
   f.residual_x = (contact_x + m.flux_divergence[0] - load_x) / weight;
   f.residual_z = (contact_z + m.flux_divergence[1] - load_z) / weight;
   f.residual_x_contact = (contact_x + inertia_x - load_x) / weight;
@@ -140,9 +132,11 @@ void set_balance(const MapNode& m, double gravity_x, double gravity_z, MapValues
 
 /// What follows from contacts that nobody knows is not computed.
 void forget_contacts(MapNode& m) {
-  m.grain.contacts = m.grain.force_x = m.grain.force_z = MapValues::none;
-  m.branch.fill(MapValues::none);
-  m.contact.fill(MapValues::none);
+  constexpr double none = MapValues::none;
+  m.contacts = none;
+  m.force = m.contact_force = m.wall_force = {none, none};
+  m.force_branch = {{{none, none}, {none, none}}};
+  m.fabric.fill(none);
 }
 
 }  // namespace
@@ -160,13 +154,12 @@ MapValues values_at(const MapNode& sums, const MapSums::Snapshots& snapshots, do
   MapNode m;
   add_times(share, sums, m);
   if (snapshots.contacts < snapshots.count) forget_contacts(m);
-  f.number_density = m.grain.number;
-  f.nu = sums.grain.area / snapshots.count / inside;
+  f.number_density = m.grains;
+  f.nu = m.solid / inside;
   if (f.nu < least_map_nu) return f;
-  f.density = m.grain.mass / inside;
+  f.density = m.motion.weight / inside;
   set_velocity(m, f);
-  set_stress(m, inside, f);
-  set_contacts(m, inside, f);
+  set_fields(m, inside, f);
   set_balance(m, share * snapshots.gravity_x, share * snapshots.gravity_z, f);
   return f;
 }

@@ -12,7 +12,7 @@ constexpr std::uint64_t zeros = UINT64_MAX;  // stands for the place of a tile t
 std::size_t rows_with_grains(const CoarseGraining& graining, const NodeTiles<MapNode>& nodes) {
   const auto is_empty = [&](std::size_t row) {
     for (std::size_t column = 0; column < graining.grid.columns; ++column)
-      if (nodes(column, row).grain.number != 0) return false;
+      if (nodes(column, row).grains != 0) return false;
     return true;
   };
   std::size_t rows = graining.grid.rows;

@@ -1,88 +1,29 @@
 #include "particles/measurement/maps/map_sums.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "coupling/common/errors.hpp"
 #include "particles/bodies/cell_path.hpp"
-#include "particles/measurement/maps/node_canvas.hpp"
+#include "particles/measurement/moments/accumulate.hpp"
 
 namespace drumlin::particles {
-namespace {
 
-using Canvas = NodeCanvas<MapNode>;
-
-/// The integral of the kernel along a half branch by two Gauss points in each of its pieces. Pieces up to 0.6
-/// widths long keep its error below 1e-3 of the kernel's greatest value (test MapSums).
-constexpr double longest_piece = 0.6;
-constexpr double gauss_offset = 0.28867513459481288;  // sqrt(3)/6 from the middle of a piece of length 1
-
-void add_half_branch(const HalfBranch& branch, double width, const std::optional<FlowCell>& cell,
-                     Canvas& canvas) {
-  const double length = std::hypot(branch.toward_x, branch.toward_z);
-  const double pieces = std::max(1.0, std::ceil(length / (longest_piece * width)));
-  const double share = -1 / (2 * pieces);  // b points from the contact to the centre
-  const std::array<double, 4> dyad{
-      share * branch.force_x * branch.toward_x, share * branch.force_x * branch.toward_z,
-      share * branch.force_z * branch.toward_x, share * branch.force_z * branch.toward_z};
-  for (double piece = 0; piece < pieces; ++piece)
-    for (double offset : {-gauss_offset, gauss_offset}) {
-      const double t = (piece + 0.5 + offset) / pieces;
-      canvas.each_image(cell, branch.x + t * branch.toward_x, branch.z + t * branch.toward_z,
-                        [&](double, double, double x, double z) {
-                          canvas.each_node(
-                              x, z, [&](MapNode& node, double phi) { add_times(phi, dyad, node.branch); });
-                        });
-    }
-  const double n_x = branch.toward_x / length, n_z = branch.toward_z / length;
-  const double wall = branch.at_wall ? 1 : 0;
-  const std::array<double, 7> end{branch.force_x,        branch.force_z, wall * branch.force_x,
-                                  wall * branch.force_z, n_x * n_x / 2,  n_x * n_z / 2,
-                                  n_z * n_z / 2};
-  canvas.each_image(
-      cell, branch.x + branch.toward_x, branch.z + branch.toward_z, [&](double, double, double x, double z) {
-        canvas.each_node(x, z, [&](MapNode& node, double phi) { add_times(phi, end, node.contact); });
-      });
+void MapNode::add_centre(const KernelWeight& at, const Grain<2>& grain) {
+  const auto [phi, phi_x, phi_z] = at;
+  const auto [u_x, u_z] = grain.laboratory_velocity;
+  const double area = grain.area(), mass = grain.density * area;
+  const std::array<double, 5> moments{mass, mass * grain.velocity[0], mass * grain.velocity[1], mass * u_x,
+                                      mass * u_z};
+  Moments::add_centre(phi, grain);
+  solid += phi * area;
+  motion.add(phi * mass, grain.laboratory_velocity);
+  for (int a = 0; a < 2; ++a) momentum[a] += phi * moments[a + 1], force[a] += phi * grain.force[a];
+  for (int k = 0; k < 5; ++k) slope_x[k] += phi_x * moments[k], slope_z[k] += phi_z * moments[k];
+  flux_divergence[0] += phi_x * (moments[3] * u_x) + phi_z * (moments[3] * u_z);
+  flux_divergence[1] += phi_x * (moments[3] * u_z) + phi_z * (moments[4] * u_z);
 }
-
-struct GrainState {
-  double x, z, area, mass, contacts, spin;
-  double v_x, v_z;  ///< relative to the drum
-  double u_x, u_z;  ///< laboratory, instantaneous
-  double force_x, force_z;
-};
-
-void add_image(const GrainState& g, Canvas& canvas) {
-  const std::array<double, 5> moments{g.mass, g.mass * g.v_x, g.mass * g.v_z, g.mass * g.u_x, g.mass * g.u_z};
-  const double flux_xx = moments[3] * g.u_x, flux_xz = moments[3] * g.u_z, flux_zz = moments[4] * g.u_z;
-  const MapNode::Grains values{1,          g.contacts, g.spin,     moments[0], moments[1],
-                               moments[2], moments[3], moments[4], flux_xx,    flux_xz,
-                               flux_zz,    g.force_x,  g.force_z,  g.area};
-  canvas.each_node_with_slope(g.x, g.z, [&](MapNode& node, double phi, double phi_x, double phi_z) {
-    add_times(phi, values, node.grain);
-    add_times(phi_x, moments, node.slope_x);
-    add_times(phi_z, moments, node.slope_z);
-    node.flux_divergence[0] += phi_x * flux_xx + phi_z * flux_xz;
-    node.flux_divergence[1] += phi_x * flux_xz + phi_z * flux_zz;
-  });
-}
-
-/// A grain and its images, which a moving cell makes faster.
-void add_grain(const GrainState& g, const std::optional<FlowCell>& cell, Canvas& canvas) {
-  canvas.each_image(cell, g.x, g.z, [&](double columns, double rows, double x, double z) {
-    GrainState image = g;
-    image.x = x, image.z = z;
-    if (cell) {
-      const double v_x = rows * cell->v_x + columns * cell->right_v_x, v_z = rows * cell->v_z;
-      image.v_x += v_x, image.u_x += v_x, image.v_z += v_z, image.u_z += v_z;
-    }
-    add_image(image, canvas);
-  });
-}
-
-}  // namespace
 
 CoarseGraining coarse_graining(const FlowFrame& frame, double x_from, double x_to, double z_from, double z_to,
                                double spacing, double width, double period, bool closed) {
@@ -118,24 +59,21 @@ MapSums empty_sums(const CoarseGraining& graining) { return {NodeTiles<MapNode>(
 
 void add_snapshot(const CoarseGraining& graining, const Snapshot& snapshot, const FlowSnapshot& in_frame,
                   MapSums& sums) {
-  Canvas canvas(graining, sums.nodes);
+  const KernelGrid binning(graining, in_frame.cell);
   const FlowFrame& frame = graining.frame;
   const Period period = period_of(snapshot);
-  std::vector<double> force_x(in_frame.x.size()), force_z(in_frame.x.size());  // of all contacts, per grain
-  for (const HalfBranch& branch : in_frame.half_branches()) {
-    force_x[branch.grain] += branch.force_x;
-    force_z[branch.grain] += branch.force_z;
-    add_half_branch(branch, graining.width, in_frame.cell, canvas);
+  std::vector<Vector<2>> force(in_frame.x.size());  // of all contacts, per grain
+  for (const HalfBranch<2>& branch : in_frame.half_branches()) {
+    for (int a = 0; a < 2; ++a) force[branch.grain][a] += branch.force[a];
+    add_branch(branch, binning, sums.nodes);
   }
   for (std::size_t i = 0; i < in_frame.x.size(); ++i) {
-    const double radius = in_frame.radius[i], area = std::numbers::pi * radius * radius;
     Point velocity{snapshot.v_x[i], snapshot.v_z[i]};
     if (snapshot.cell) velocity = first_image(period, grain_of(snapshot, i)).velocity;
-    add_grain({in_frame.x[i], in_frame.z[i], area, in_frame.density_of(i) * area,
-               static_cast<double>(in_frame.coordination[i]), in_frame.spin.empty() ? 0 : in_frame.spin[i],
-               in_frame.v_x[i], in_frame.v_z[i], frame.along(velocity.x, velocity.z),
-               frame.normal(velocity.x, velocity.z), force_x[i], force_z[i]},
-              in_frame.cell, canvas);
+    Grain<2> grain = in_frame.grain(i);
+    grain.laboratory_velocity = {frame.along(velocity.x, velocity.z), frame.normal(velocity.x, velocity.z)};
+    grain.force = force[i];
+    add_grain(grain, binning, sums.nodes);
   }
   MapSums::Snapshots& known = sums.snapshots;
   known.count += 1;

@@ -6,35 +6,35 @@
 
 #include "particles/measurement/frame/flow_snapshot.hpp"
 #include "particles/measurement/frame/intervals.hpp"
-#include "particles/measurement/maps/coarse_graining.hpp"
-#include "particles/measurement/maps/node_tiles.hpp"
+#include "particles/measurement/maps/kernel_grid.hpp"
 
 namespace drumlin::particles {
 
-/// Sums at one node; phi is the kernel around it, x_i a grain's centre, c a contact. v: velocity relative to
-/// the drum over the stored window; u: instantaneous, in the laboratory; m: mass, which is the area of a
-/// grain without a density of its own. Components in the flow frame.
-struct MapNode {
-  /// sum of phi(x_i) times these; velocities and their products times m too.
-  struct Grains {
-    double number = 0, contacts = 0, spin = 0, mass = 0, v_x = 0, v_z = 0, u_x = 0, u_z = 0;
-    double u_x_u_x = 0, u_x_u_z = 0, u_z_u_z = 0;
-    double force_x = 0, force_z = 0;  ///< of all contacts on the grain
-    double area = 0;
-  } grain;
+/// Sums at one node; phi is the kernel around it, m the mass. v: velocity relative to the drum over the
+/// stored window; u, that of `motion`: instantaneous, in the laboratory. Components in the flow frame.
+struct MapNode : Moments<2> {
+  /// sum of phi at the grains' centres times m v; times the force of all contacts on the grain.
+  Vector<2> momentum{}, force{};
   /// d/dx and d/dz of the sums of m, m v_x, m v_z, m u_x, m u_z.
   std::array<double, 5> slope_x{}, slope_z{};
   /// d/dx m u_x u_x + d/dz m u_x u_z, and the same for z.
-  std::array<double, 2> flux_divergence{};
-  /// sum over half branches of the integral of phi along it times F_x b_x, F_x b_z, F_z b_x, F_z b_z: F on
-  /// the grain, b from the contact to its centre.
-  std::array<double, 4> branch{};
-  /// sum of phi(c) times F_x, F_z of both sides of each contact; the same of contacts with walls alone; half
-  /// of n_x n_x, n_x n_z, n_z n_z for each side (a wall has none).
-  std::array<double, 7> contact{};
+  Vector<2> flux_divergence{};
+  /// sum of phi at the contacts times the forces of both sides of each; the same of contacts with walls
+  /// alone.
+  Vector<2> contact_force{}, wall_force{};
   /// sum of phi around the middle of a displacement d, of a grain relative to the drum from one snapshot to
   /// the next after the time t, times m t, m d_x, m d_z; d/dx and d/dz of it.
   std::array<double, 3> moved{}, moved_slope_x{}, moved_slope_z{};
+
+  void add_centre(const KernelWeight& at, const Grain<2>& grain);
+  /// The fabric takes half of each side, so that a contact with a wall counts half.
+  void add_end(double phi, const HalfBranch<2>& branch) {
+    add_fabric(phi / 2, branch.normal);
+    for (int a = 0; a < 2; ++a) {
+      contact_force[a] += phi * branch.force[a];
+      if (branch.at_wall) wall_force[a] += phi * branch.force[a];
+    }
+  }
 };
 
 /// Sums over some snapshots.

@@ -7,6 +7,10 @@
 
 namespace drumlin::particles {
 
+struct MapPlace {
+  std::size_t column, row;
+};
+
 /// One sum per node of a grid, zero where nothing was added. Memory: of the square tiles that somebody wrote
 /// to.
 template <class Node>
@@ -20,10 +24,10 @@ class NodeTiles {
         tiles_(across_ * tiles_along(grid.rows)) {}
 
   /// For writing: makes the tile.
-  Node& at(std::size_t column, std::size_t row) {
-    std::vector<Node>& tile = tiles_[tile_of(column, row)];
+  Node& operator[](MapPlace at) {
+    std::vector<Node>& tile = tiles_[tile_of(at.column, at.row)];
     if (tile.empty()) tile.resize(nodes_per_tile);
-    return tile[place_in_tile(column, row)];
+    return tile[place_in_tile(at.column, at.row)];
   }
   const Node& operator()(std::size_t column, std::size_t row) const {
     static const Node zero{};
