@@ -22,7 +22,6 @@
 #include "apps/output/commands.hpp"
 #include "apps/output/output_folder.hpp"
 #include "apps/process/interruption.hpp"
-#include "apps/process/memory_reserve.hpp"
 #include "apps/process/progress.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
@@ -81,7 +80,6 @@ class ParticleRun {
       if (simulated_seconds() >= next_checkpoint_s_) save_checkpoint();
       if (progress_.due()) progress_.show(line_of_progress());
       if (const int signal = interruption()) return stop_for(signal);
-      end_if_memory_was_short();
     }
     save_checkpoint();
     writer_.wait();

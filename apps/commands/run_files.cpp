@@ -56,11 +56,7 @@ RunTable::RunTable(const fs::path& file, const std::string& header, std::int64_t
                        ": is missing or shorter than the checkpoint says; start over with --overwrite");
     sum_ = checksum_of(file, static_cast<std::uint64_t>(keep_bytes));
   }
-  refuse_special(file);
-  const Descriptor folder = open_folder(file.parent_path());
-  if (folder.number() >= 0)
-    opened_ = Descriptor(::openat(folder.number(), file.filename().c_str(),
-                                  O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666));
+  opened_ = Descriptor(::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666));
   if (opened_.number() < 0) throw_io_error(file, "opened");
   if (::ftruncate(opened_.number(), keep_bytes) != 0 || ::lseek(opened_.number(), 0, SEEK_END) != keep_bytes)
     throw_io_error(file, "cut back");

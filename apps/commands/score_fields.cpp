@@ -8,7 +8,6 @@
 #include "apps/output/commands.hpp"
 #include "apps/output/figures.hpp"
 #include "coupling/common/errors.hpp"
-#include "coupling/common/files/own_folder.hpp"
 #include "coupling/common/files/text_file.hpp"
 #include "coupling/comparison/map_sampling.hpp"
 #include "coupling/hdf5/field_map_file.hpp"

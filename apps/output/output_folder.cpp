@@ -1,9 +1,7 @@
 #include "apps/output/output_folder.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fnmatch.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <set>
@@ -11,7 +9,6 @@
 
 #include "coupling/common/errors.hpp"
 #include "coupling/common/files/input_file.hpp"
-#include "coupling/common/files/own_folder.hpp"
 #include "coupling/common/files/result_folder.hpp"
 #include "coupling/common/files/text_file.hpp"
 
@@ -82,7 +79,7 @@ void remove_left_aside(const fs::path& folder) {
     else if (is_left_aside(path) && entry->is_regular_file())
       left.push_back(path);
   }
-  for (const fs::path& file : left) remove_from_folder(file);
+  for (const fs::path& file : left) fs::remove(file);
 }
 
 /// Removes folders of these files that hold nothing any more.
@@ -91,24 +88,25 @@ void remove_empty_folders(const fs::path& folder, const std::vector<std::string>
   for (const std::string& name : names)
     for (fs::path parent = fs::path(name).parent_path(); !parent.empty(); parent = parent.parent_path())
       parents.insert(parent);
-  for (const fs::path& parent : parents) {
-    try {
-      remove_from_folder(folder / parent);
-    } catch (const IoError&) {  // still in use
-    }
-  }
+  std::error_code still_in_use;
+  for (const fs::path& parent : parents) fs::remove(folder / parent, still_in_use);
+}
+
+void move_file(const fs::path& from, const fs::path& to) {
+  make_folders(to.parent_path());
+  fs::rename(from, to);
 }
 
 /// Puts what is published in the place of the old results; goes on where it was interrupted.
 void take_over(const fs::path& folder) {
   const fs::path staging = folder / staging_name;
   const Manifest fresh = read_manifest(staging);
-  refuse_links(staging, names_in(fresh));
+  for (const fs::path& within : {staging, folder}) refuse_links(within, names_in(fresh));
   const Manifest old = has_manifest(folder) ? read_manifest(folder) : Manifest{};
   std::vector<std::string> gone;
   for (const auto& [name, entry] : old.files)
     if (!fresh.files.contains(name)) gone.push_back(name);
-  for (const std::string& name : gone) remove_from_folder(folder / name);
+  for (const std::string& name : gone) fs::remove(folder / name);
   std::set<fs::path> touched;
   for (const auto& [name, entry] : fresh.files) {
     if (fs::exists(staging / name)) move_file(staging / name, folder / name);
@@ -171,12 +169,12 @@ void set_aside(const fs::path& folder, const std::vector<std::string>& known) {
   }
   const bool is_theirs = read_manifest(aside).files == old.files;  // or an interrupted call has moved some
   const std::vector<std::string> names = our_files(folder, known);
-  refuse_links(folder, names);
+  for (const fs::path& within : {folder, aside}) refuse_links(within, names);
   for (const std::string& name : names) {
     if (is_theirs && fs::exists(fs::symlink_status(folder / name)))
       move_file(folder / name, aside / name);
     else
-      remove_from_folder(folder / name);
+      fs::remove(folder / name);
   }
   remove_empty_folders(folder, names);
 }
@@ -222,9 +220,7 @@ StagedOutput::StagedOutput(OutputRequest request)
       made_(!fs::exists(input_status(request_.folder))),
       lock_(claim(request_)),
       staging_(request_.folder / staging_name) {
-  // New, and of this user alone: nobody plants a link where results and figures are about to be written.
-  if (::mkdirat(open_folder(request_.folder).number(), staging_name, S_IRWXU) != 0)
-    throw_io_error(staging_, "made");
+  fs::create_directory(staging_);
 }
 
 StagedOutput::~StagedOutput() {
@@ -306,12 +302,13 @@ bool holds_results(const fs::path& folder, const std::string& finished) {
 
 FolderLock prepare_output_file(const fs::path& file, ExistingOutput existing) {
   if (file.empty()) throw InputError("the output file has no name");
-  refuse_special(file);
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (has_manifest(folder) && read_manifest(folder).files.contains(file.filename().string()))
     throw InputError(file.string() + ": is one of the results in its folder; name another file");
-  if (fs::is_directory(file)) throw InputError(file.string() + ": is a folder, a file is needed");
-  if (fs::exists(file) && existing == ExistingOutput::refuse)
+  const auto there = input_status(file);
+  if (fs::exists(there) && !fs::is_regular_file(there))
+    throw InputError(file.string() + ": is a folder or a device, a file is needed");
+  if (fs::exists(there) && existing == ExistingOutput::refuse)
     throw InputError(file.string() + ": exists already; give --overwrite, or name another file");
   make_folders(folder);
   return FolderLock(folder / ("." + file.filename().string() + folder_lock_name),

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -18,7 +17,6 @@
 
 #include "apps/output/commands.hpp"
 #include "apps/process/interruption.hpp"
-#include "apps/process/memory_reserve.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/common/errors.hpp"
 #include "coupling/common/files/unfinished_file.hpp"
@@ -66,16 +64,6 @@ void report_error(const Report& report) {
   }
 }
 
-bool at_work = false;  // like its exit handler it belongs to the process
-
-/// HDF5 calls exit() where it gets no memory.
-void end_of_library() {
-  if (!at_work) return;
-  remove_unfinished_files();
-  print_error("a library has ended the program, most likely for lack of memory\n");
-  ::_exit(static_cast<int>(ExitCode::input_output));
-}
-
 [[noreturn]] void end_with_message() noexcept {
   remove_unfinished_files();
   if (std::current_exception())
@@ -116,9 +104,6 @@ int run_program(const std::function<int()>& work, const std::function<bool()>& s
   open_standard_streams();
   end_at_signals();
   std::set_terminate(end_with_message);
-  keep_memory_in_reserve();
-  if (std::atexit(end_of_library) != 0) return static_cast<int>(ExitCode::input_output);
-  at_work = true;
   int code = 0;
   try {
     require_stack();
@@ -132,7 +117,6 @@ int run_program(const std::function<int()>& work, const std::function<bool()>& s
       print_error("\n");
     });
   }
-  at_work = false;
   return code_with_output(code, speaks());
 }
 

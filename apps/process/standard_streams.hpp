@@ -9,9 +9,8 @@ namespace drumlin::apps {
 /// and lost_output() says so; messages to a closed standard error are dropped.
 void open_standard_streams();
 
-/// Prints to standard output: of text that others have named, what a terminal would take for an order, and
-/// bytes that are no UTF-8, as \\xNN; so the others below. What cannot be written does not stop the work:
-/// lost_output() says so at its end.
+/// Prints to standard output. What cannot be written does not stop the work: lost_output() says so at its
+/// end.
 void print_out(std::string_view text);
 /// Shows what was printed so far.
 void flush_out();

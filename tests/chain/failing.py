@@ -1,18 +1,14 @@
 """Calls of a run to the system fail, one in each trial: the run says so and ends cleanly, and --resume goes on to the same bytes.
 
-usage: failing.py DRUMLIN FAILING_CALLS_LIBRARY FOLDER_OF_THIS_TEST [--calls COUNT] [--allocations COUNT] [--from NUMBER] [--to NUMBER] [--show]
-  --calls COUNT        about how many calls of each kind that files are written with are tried, spread evenly (default: 0, all)
-  --allocations COUNT  about how many of the run's tens of thousands of allocations are tried, spread evenly (default: 60); 0: all
-  --from NUMBER, --to NUMBER
-                       nothing but the allocations from one number to another, each of them: to share them, or to go on
-  --show               lists every failure that was tried with what the run said
+usage: failing.py DRUMLIN FAILING_CALLS_LIBRARY FOLDER_OF_THIS_TEST [--calls COUNT] [--show]
+  --calls COUNT  about how many calls of each kind that files are written with are tried, spread evenly (default: 0, all)
+  --show         lists every failure that was tried with what the run said
 """
 
 import argparse
 import os
 import pathlib
 import shutil
-import signal
 import subprocess
 import tempfile
 
@@ -23,19 +19,7 @@ SMALL = ["--set", "grains.generated.count=40", "--set", "grains.generated.diamet
          "--set", "stages.0.duration_s=0.02", "--set", "stages.1.turns=0.005", "--set", "stages.2.turns=0.005", "--set", "stages.2.snapshots=2",
          "--set", "output.checkpoint_every_s=0.03", "--set", "output.energy_ledger=true", "--set", "output.velocity_window_s=2e-3"]
 FILE_CALLS = ("open", "write", "fsync", "rename", "close")
-# HDF5 1.10 reads and frees what it did not get; the run must then go on to the same bytes all the same.
-CRASHES_OF_HDF5 = (-signal.SIGSEGV, -signal.SIGABRT)
-# The TOML library takes a number that it has no memory to read for one that is none; the message names it.
-MISTAKEN = (2,)
 PATIENCE = 1200  # seconds for what takes a tenth of one
-
-
-def place_of_hdf5(executable):
-    """Where a program holds HDF5 within itself: FIRST:LAST, hexadecimal; None if it loads it. Its functions stand side by side."""
-    listed = subprocess.run(["nm", "--numeric-sort", "--defined-only", executable], capture_output=True, text=True, check=True).stdout
-    functions = [line.split() for line in listed.splitlines()]
-    places = [address for address, kind, name in functions if kind in "tT" and name.startswith("H5") and not name.endswith(".cold")]
-    return f"{places[0]}:{places[-1]}" if places else None
 
 
 def counted(file):
@@ -50,8 +34,7 @@ class Trials:
     def __init__(self, given, work):
         self.executable, self.words = str(given.executable.resolve()), [given.tests / "tiny-drum.toml", *SMALL]
         self.library, self.show, self.run = str(given.library.resolve()), given.show, work / "run"
-        place = place_of_hdf5(given.executable)
-        self.environment = os.environ | {"LD_PRELOAD": self.library} | ({"FAILING_HDF5": place} if place else {})
+        self.environment = os.environ | {"LD_PRELOAD": self.library}
         whole, counts = work / "whole", work / "counts"
         code, said = self.started(whole, FAILING_COUNTS_TO=str(counts))
         require(code == 0, f"nothing fails: exit code {code}\n{said}")
@@ -66,16 +49,16 @@ class Trials:
         lines = (result.stdout + result.stderr).splitlines()
         return result.returncode, "\n".join(line for line in lines if not line.startswith("reduced run"))
 
-    def fail(self, kind, number, count=1, crashes=()):
-        """One failure, or `count` from there on; True if it ended the run. `crashes`: exit codes that a library is to blame for."""
-        run, what = self.run, f"{kind} {number} of {self.calls[kind]}" + (" and all after it" if count > 1 else "")
+    def fail(self, kind, number):
+        """One failure; True if it ended the run."""
+        run, what = self.run, f"{kind} {number} of {self.calls[kind]}"
         shutil.rmtree(run, ignore_errors=True)
-        code, said = self.started(run, FAILING_CALL=kind, FAILING_FROM=str(number), FAILING_COUNT=str(count))
+        code, said = self.started(run, FAILING_CALL=kind, FAILING_NUMBER=str(number))
         if self.show:
             print(f"{what}: {code} {said.splitlines()[-1:] if code else ''}", flush=True)
-        require(code in (0, 74, *crashes), f"{what}: exit code {code}\n{said}")
-        require(code not in (2, 74) or said, f"{what}: ended with {code} and without a word")
-        if run.exists() and code not in crashes:
+        require(code in (0, 74), f"{what}: exit code {code}\n{said}")
+        require(code == 0 or said, f"{what}: ended with {code} and without a word")
+        if run.exists():
             require_whole_files(run)
         if code == 0:
             require(results_of_run(run) == self.expected, f"{what}: ended well with other bytes")
@@ -104,7 +87,7 @@ class Trials:
             what = f"--extend, {kind} {number} of {calls}"
             shutil.rmtree(run, ignore_errors=True)
             shutil.copytree(finished, run)
-            code, said = extended(run, "--extend", "0.01", FAILING_CALL=kind, FAILING_FROM=str(number), FAILING_COUNT="1")
+            code, said = extended(run, "--extend", "0.01", FAILING_CALL=kind, FAILING_NUMBER=str(number))
             require(code in (0, 74), f"{what}: exit code {code}\n{said}")
             again, said_again = extended(run, "--resume")
             require(again == 0, f"{what}: {said}\nresumed: exit code {again}\n{said_again}")
@@ -115,17 +98,10 @@ class Trials:
             require_whole_files(run)
         print(f"--extend, {kind}: {calls} failures tried", flush=True)
 
-    def fail_each(self, kind, wanted, crashes=()):
+    def fail_each(self, kind, wanted):
         """About so many of the calls of this kind, spread evenly; all of them where 0 is wanted."""
-        self.fail_numbers(kind, range(1, self.calls[kind] + 1, max(1, self.calls[kind] // wanted) if wanted else 1), crashes)
-
-    def fail_numbers(self, kind, numbers, crashes):
-        """One failure after the other; says every 500 how far it is."""
-        ended = 0
-        for trial, number in enumerate(numbers, 1):
-            ended += self.fail(kind, number, crashes=crashes)
-            if trial % 500 == 0:
-                print(f"{kind}: {number} of {self.calls[kind]}, {ended} of {trial} ended the run", flush=True)
+        numbers = range(1, self.calls[kind] + 1, max(1, self.calls[kind] // wanted) if wanted else 1)
+        ended = sum(self.fail(kind, number) for number in numbers)
         print(f"{kind}: {len(numbers)} failures of {self.calls[kind]} calls tried, {ended} ended the run", flush=True)
 
 
@@ -135,9 +111,6 @@ def main():
     parser.add_argument("library", type=pathlib.Path)
     parser.add_argument("tests", type=pathlib.Path)
     parser.add_argument("--calls", type=int, default=0)
-    parser.add_argument("--allocations", type=int, default=60)
-    parser.add_argument("--from", type=int, dest="first")
-    parser.add_argument("--to", type=int, default=1 << 40, dest="last")
     parser.add_argument("--show", action="store_true")
     given = parser.parse_args()
     if has_address_sanitizer(given.executable):
@@ -145,18 +118,9 @@ def main():
         return
     with tempfile.TemporaryDirectory(prefix="drumlin-failing-") as name:
         trials = Trials(given, pathlib.Path(name))
-        calls = trials.calls
-        if given.first is not None:
-            trials.fail_numbers("malloc", range(given.first, min(given.last, calls["malloc"]) + 1), MISTAKEN)
-            return
         for kind in FILE_CALLS:
             trials.fail_each(kind, given.calls)
         trials.fail_extended("rename")
-        for kind, crashes in (("malloc", MISTAKEN), ("malloc-in-hdf5", CRASHES_OF_HDF5)):
-            trials.fail_each(kind, given.allocations, crashes)
-        # Memory that stays short: what tells of it and cleans up needs none.
-        for number in range(1, calls["malloc"], calls["malloc"] // min(10, given.allocations or 10)):
-            trials.fail("malloc", number, count=1 << 40, crashes=MISTAKEN)
 
 
 if __name__ == "__main__":

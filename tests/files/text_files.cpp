@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
 #include "coupling/common/errors.hpp"
 #include "coupling/common/files/text_file.hpp"
@@ -39,22 +38,6 @@ TEST(TextFile, IsNotWrittenThroughAPlantedLink) {
   EXPECT_EQ(file_text(theirs), "years of work");
   EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(folder / "a")));
   EXPECT_EQ(file_text(folder / "a"), "new");
-}
-
-TEST(TextFile, TakesThePlaceOfNoDeviceFifoOrSocket) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);
-  ASSERT_EQ(::mknod((folder / "socket").c_str(), S_IFSOCK | 0600, 0), 0);
-  fs::create_symlink("/dev/null", folder / "link");
-  fs::create_symlink("missing", folder / "dangling");
-  for (const char* name : {"fifo", "socket", "link"}) {
-    EXPECT_THROW(replace_file(folder / name, "text"), InputError) << name;
-    EXPECT_THROW(FileInTheMaking(folder / name), InputError) << name;
-    EXPECT_FALSE(fs::is_regular_file(folder / name));
-  }
-  EXPECT_THROW(replace_file("/dev/null", "text"), InputError);
-  replace_file(folder / "dangling", "text");
-  EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(folder / "dangling")));
 }
 
 TEST(TextFile, TheFileBeforeStaysUnderItsOtherName) {

@@ -191,7 +191,6 @@ void refuse_files_of_others(const CalibrateOptions& options) {
   if (record == options.output || figure == options.output)
     throw InputError(options.output.string() +
                      ": the record or the figure of the law has this name; name it .toml");
-  for (const fs::path& file : {record, figure}) refuse_special(file);
   if (options.existing != ExistingOutput::refuse) return;
   const auto refuse = [](const fs::path& file) {
     throw InputError(

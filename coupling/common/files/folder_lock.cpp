@@ -44,12 +44,8 @@ std::string time_text() {
 }
 
 FolderLock::FolderLock(const fs::path& file, const std::string& command) : held_(-1) {
-  if (file.filename() == folder_lock_name) own_.emplace(file.parent_path());
-  const Descriptor above = open_folder(file.parent_path());
   do {  // its holder may remove it after we have opened it
-    if (above.number() >= 0)
-      held_ = Descriptor(::openat(above.number(), file.filename().c_str(),
-                                  O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666));
+    held_ = Descriptor(::open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666));
     if (held_.number() < 0) throw_io_error(file, "made");
     if (::flock(held_.number(), LOCK_EX | LOCK_NB) == 0) continue;
     if (errno != EWOULDBLOCK) throw_io_error(file, "locked");

@@ -2,10 +2,9 @@
 // A lock that one process at a time holds on what it writes; it ends with the process, however that ends.
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 
-#include "coupling/common/files/own_folder.hpp"
+#include "coupling/common/files/descriptor.hpp"
 #include "coupling/common/files/unfinished_file.hpp"
 
 namespace drumlin {
@@ -14,7 +13,7 @@ namespace drumlin {
 inline constexpr const char* folder_lock_name = ".lock";
 
 /// flock(2) on a file that exists only as long as the lock is held; signals that end the process remove it
-/// too. A file that a killed process left is no obstacle. The folder of a lock of this name is an OwnFolder.
+/// too. A file that a killed process left is no obstacle.
 class FolderLock {
  public:
   /// `command`: who holds it, for whom it keeps out. Throws InputError that names the holder (process,
@@ -22,7 +21,6 @@ class FolderLock {
   FolderLock(const std::filesystem::path& file, const std::string& command);
 
  private:
-  std::optional<OwnFolder> own_;
   Descriptor held_;
   // Goes before it, while the lock is held: whoever has opened it meanwhile sees that it has gone.
   std::unique_ptr<UnfinishedFile> named_;

@@ -18,19 +18,11 @@ namespace {
   throw InputError({InputProblem{file.string(), 0, 0, "", what, allowed}});
 }
 
-const char* kind_of(mode_t mode) {
-  if (S_ISFIFO(mode)) return "is a FIFO, not a file";
-  if (S_ISCHR(mode) || S_ISBLK(mode)) return "is a device, not a file";
-  if (S_ISSOCK(mode)) return "is a socket, not a file";
-  return "is no file";
-}
-
 /// What open() leaves to say of a name that it did not open.
 [[noreturn]] void say_why_not_open(const std::filesystem::path& file) {
   if (errno == ENOENT || errno == ENOTDIR) refuse(file, "does not exist");
   if (errno == ELOOP) refuse(file, "is a link that leads back to itself");
   if (errno == ENAMETOOLONG) refuse(file, "has too long a name");
-  if (errno == ENXIO || errno == ENODEV) refuse(file, "is no file", "a regular file");
   throw_io_error(file, "read");
 }
 
@@ -49,7 +41,7 @@ InputFile::InputFile(const std::filesystem::path& file, std::uint64_t largest)
   if (::fstat(opened_.number(), &status) != 0) throw_io_error(file, "read");
   size_ = static_cast<std::uint64_t>(std::max<off_t>(0, status.st_size));
   if (S_ISDIR(status.st_mode)) refuse(file, "is a folder, not a file");
-  if (!S_ISREG(status.st_mode)) refuse(file, kind_of(status.st_mode), "a regular file");
+  if (!S_ISREG(status.st_mode)) refuse(file, "is no regular file");
   if (size_ > largest) refuse(file, "is too large", "at most " + size_text(largest));
 }
 
@@ -71,12 +63,6 @@ std::filesystem::file_status input_status(const std::filesystem::path& file) {
   if (status.type() != std::filesystem::file_type::none) return status;
   errno = error.value();
   say_why_not_open(file);
-}
-
-void refuse_special(const std::filesystem::path& file) {
-  struct stat status {};
-  if (::stat(file.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
-    refuse(file, kind_of(status.st_mode), "a regular file, or none");
 }
 
 std::uint64_t largest_binary_file() {

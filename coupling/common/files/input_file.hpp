@@ -1,12 +1,12 @@
 #pragma once
-// A file that somebody named, opened so that whatever lies under the name can neither hang nor flood the
-// program: regular files only, of a limited size. Every reader of the project opens its files here.
+// A file that somebody named: regular files only, of a limited size. Every reader of the project opens its
+// files here.
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
 
-#include "coupling/common/files/own_folder.hpp"
+#include "coupling/common/files/descriptor.hpp"
 
 namespace drumlin {
 
@@ -16,7 +16,7 @@ inline constexpr std::uint64_t largest_text_file = std::uint64_t{1} << 30;
 /// 4 GiB, or half of the memory of the machine where that is more: our own files are read as a whole.
 std::uint64_t largest_binary_file();
 
-/// A regular file open for reading. A FIFO, a socket or a device is never waited for.
+/// A regular file open for reading.
 class InputFile {
  public:
   /// Throws InputError (file, what it is, what is allowed) if the file is missing, no regular file or larger
@@ -36,10 +36,6 @@ class InputFile {
 /// What lies under a name that somebody gave: not_found if nothing does. Throws InputError on names that
 /// nothing can have (too long, links that lead back to themselves), and IoError.
 std::filesystem::file_status input_status(const std::filesystem::path& file);
-
-/// Throws InputError where the name, or a link of this name, is one of a device, a FIFO or a socket: no file
-/// takes its place.
-void refuse_special(const std::filesystem::path& file);
 
 /// All bytes of a file. Throws as InputFile.
 std::string input_bytes(const std::filesystem::path& file, std::uint64_t largest);

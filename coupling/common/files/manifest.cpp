@@ -117,6 +117,14 @@ bool can_be_listed(const fs::path& name) {
          });
 }
 
+void refuse_links(const fs::path& folder, const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    for (fs::path way = fs::path(name).parent_path(); !way.empty(); way = way.parent_path())
+      if (std::error_code error; fs::is_symlink(fs::symlink_status(folder / way, error)))
+        throw InputError((folder / way).string() +
+                         ": is a symbolic link, and none is followed below a folder of results; remove it");
+}
+
 std::string manifest_sum(const Manifest& manifest) { return text_sum(summed_text(manifest)); }
 
 void write_manifest(const fs::path& folder, const Manifest& manifest) {

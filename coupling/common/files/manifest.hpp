@@ -45,6 +45,10 @@ std::set<FileKind> kinds_in(const Manifest& manifest);
 /// command writes (measured/slices/1.csv).
 bool can_be_listed(const std::filesystem::path& name);
 
+/// Throws InputError where the way from `folder` to one of these names in it leads over a symbolic link:
+/// nothing outside of a folder that somebody else made is written or removed.
+void refuse_links(const std::filesystem::path& folder, const std::vector<std::string>& names);
+
 /// Throws InputError if it is missing, damaged or of another version.
 Manifest read_manifest(const std::filesystem::path& folder);
 

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/files/own_folder.hpp"
 
 namespace drumlin {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/common/files/own_folder.hpp"
+#include "coupling/common/files/descriptor.hpp"
 
 namespace drumlin {
 

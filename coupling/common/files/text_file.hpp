@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "coupling/common/files/own_folder.hpp"
+#include "coupling/common/files/descriptor.hpp"
 #include "coupling/common/files/unfinished_file.hpp"
 
 namespace drumlin {
@@ -13,13 +13,12 @@ namespace drumlin {
 std::string file_text(const std::filesystem::path& file);
 
 /// A file that is written aside, forced to the disk and renamed to its place, the folder being forced to the
-/// disk too: a kill or a power cut leaves the old file or the new one. The place aside is new and has a name
-/// that nobody can guess; a symbolic link in the place of the file is replaced, not followed. It vanishes
-/// with this object unless it has taken its place.
+/// disk too: a kill or a power cut leaves the old file or the new one. The file aside is new; a symbolic link
+/// in the place of the file is replaced, not followed. It vanishes with this object unless it has taken its
+/// place.
 class FileInTheMaking {
  public:
-  /// Makes it, empty. Throws IoError, and InputError where a device, a FIFO or a socket has the name, or the
-  /// way leads over a link below an OwnFolder.
+  /// Makes it, empty. Throws IoError.
   explicit FileInTheMaking(const std::filesystem::path& file);
 
   /// Where it is to be written, if by something else than write().
@@ -33,7 +32,6 @@ class FileInTheMaking {
 
  private:
   std::filesystem::path file_;
-  Descriptor folder_;
   UnfinishedFile unfinished_;  // removes it wherever this process ends before the rename
   Descriptor content_;
 };
@@ -49,8 +47,7 @@ bool is_left_aside(const std::filesystem::path& file);
 void force_to_disk(const std::filesystem::path& path);
 
 /// Makes a folder and those above it that are missing, and forces the name of each new one to the disk: what
-/// is forced to the disk within it outlives a power cut only if its name does. Throws IoError, and InputError
-/// as open_folder().
+/// is forced to the disk within it outlives a power cut only if its name does. Throws IoError.
 void make_folders(const std::filesystem::path& folder);
 
 }  // namespace drumlin

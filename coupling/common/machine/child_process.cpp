@@ -18,7 +18,6 @@
 #include <utility>
 
 #include "coupling/common/errors.hpp"
-#include "coupling/common/files/input_file.hpp"
 
 extern char** environ;
 
@@ -55,19 +54,12 @@ std::vector<std::string> environment_with(const std::vector<std::string>& settin
 
 /// Makes a child the other program. Nothing may be allocated between fork and exec.
 [[noreturn]] void become(const ProcessRequest& request, char* const* words, char* const* variables,
-                         int captured, int failed, pid_t parent, const sigset_t& mask) {
+                         int captured, int failed) {
   ::prctl(PR_SET_PDEATHSIG, request.end_signal);
-  if (::getppid() != parent) ::_exit(128 + SIGKILL);  // it ended before it could be watched
   if (request.input >= 0) ::dup2(request.input, STDIN_FILENO);
   if (request.output != ProcessOutput::inherited) ::dup2(captured, STDOUT_FILENO);
   if (request.output == ProcessOutput::with_errors) ::dup2(captured, STDERR_FILENO);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    struct sigaction action {};
-    ::sigaction(signal, nullptr, &action);
-    if (action.sa_handler != SIG_IGN) std::signal(signal, SIG_DFL);
-  }
   std::signal(SIGPIPE, SIG_DFL);
-  ::pthread_sigmask(SIG_SETMASK, &mask, nullptr);
   ::execvpe(request.program.c_str(), words, variables);
   const int error = errno;
   (void)!::write(failed, &error, sizeof error);
@@ -80,16 +72,10 @@ pid_t started(const ProcessRequest& request, int captured) {
   std::vector<std::string> variables = environment_with(request.environment);
   const std::vector<char*> word_pointers = pointers(words), variable_pointers = pointers(variables);
   Pipe failed = open_pipe();  // takes errno if there is no such program
-  sigset_t all, before;       // held back: between fork and exec the child still has our handlers
-  ::sigfillset(&all);
-  ::pthread_sigmask(SIG_SETMASK, &all, &before);
-  const pid_t parent = ::getpid(), process = ::fork();
+  const pid_t process = ::fork();
   if (process == 0)
-    become(request, word_pointers.data(), variable_pointers.data(), captured, failed.in.number(), parent,
-           before);
-  const int refused = errno;
-  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  if (process < 0) fail(request.program, refused);
+    become(request, word_pointers.data(), variable_pointers.data(), captured, failed.in.number());
+  if (process < 0) fail(request.program, errno);
   (void)failed.in.close();
   int error = 0;
   if (::read(failed.out.number(), &error, sizeof error) == static_cast<ssize_t>(sizeof error)) {
@@ -198,7 +184,6 @@ fs::path program_beside(const std::string& name) {
   if (!fs::exists(program))
     throw IoError(program.string() +
                   ": is missing; the target programs builds it, unless DRUMLIN_CONTINUUM is OFF");
-  refuse_special(".adolcrc");  // ADOL-C, within deal.II, reads it as it is loaded, and would wait for a FIFO
   return program;
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/common/files/own_folder.hpp"
+#include "coupling/common/files/descriptor.hpp"
 
 namespace drumlin {
 
