@@ -1,8 +1,8 @@
 #include "particles/measurement/frame/survey.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "coupling/common/errors.hpp"
@@ -10,6 +10,7 @@
 #include "particles/measurement/frame/dense_window.hpp"
 #include "particles/measurement/frame/flow_snapshot.hpp"
 #include "particles/measurement/frame/intervals.hpp"
+#include "particles/measurement/moments/grain_bins.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -57,12 +58,9 @@ void widen_extent(const Snapshot& snapshot, bool first, Survey& found) {
 void add_bulk(const Snapshot& snapshot, const FlowFrame& frame, TimeSeries& series) {
   FlowSnapshot seen;
   to_flow_frame(snapshot, frame, VelocityKind::window, seen);
-  double area = 0, trace = 0, shear = 0;
-  for (const double radius : seen.radius) area += std::numbers::pi * radius * radius;
-  for (const HalfBranch<2>& branch : seen.half_branches()) {
-    trace -= branch.force[0] * branch.toward[0] + branch.force[1] * branch.toward[1];
-    shear += branch.force[0] * branch.toward[1];
-  }
+  std::array<GrainSum, 1> all{};
+  accumulate(seen, Everywhere{}, all);
+  const Tensor<2> stress = derive(all[0], Background<2>{all[0].solid}).contact;
   std::vector<double> heights, velocities;
   for (std::size_t i = 0; i < seen.x.size(); ++i) {
     if (seen.coordination[i] == 0) continue;
@@ -72,8 +70,8 @@ void add_bulk(const Snapshot& snapshot, const FlowFrame& frame, TimeSeries& seri
   const auto line = heights.size() < 3 ? std::nullopt : statistics::fit_line(heights, velocities);
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const bool known = snapshot.contacts_known;
-  series.pressure.push_back(known ? trace / (2 * area) : none);
-  series.shear_stress.push_back(known ? shear / area : none);
+  series.pressure.push_back(known ? (stress[0][0] + stress[1][1]) / 2 : none);
+  series.shear_stress.push_back(known ? -stress[0][1] : none);
   series.shear_rate.push_back(known && line ? line->slope : none);
 }
 

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "coupling/results/plane_invariants.hpp"
+#include "particles/bodies/cell_path.hpp"
 #include "particles/bodies/snapshot.hpp"
+#include "particles/measurement/moments/accumulate.hpp"
 
 namespace drumlin::particles {
 
@@ -32,6 +34,45 @@ struct RegionState {
 
 /// The share of a straight line from (x, z) to (x + dx, z + dz) that lies in the box, 0 to 1.
 double share_inside(const Box& box, double x, double z, double dx, double dz);
+
+/// The binning by one box (accumulate.hpp); of the images of a grain the one nearest to its middle, from
+/// which places are counted. A box as wide as the period has no sides, one as high as the cell neither floor
+/// nor top.
+class BoxBinning {
+ public:
+  BoxBinning(const Box& box, const Period& period);
+
+  void each_part(const Grain<2>& grain, auto action) const {
+    each_centre(grain, [&](std::size_t, double, const Grain<2>&) { action(std::size_t{0}, grain.area()); });
+  }
+  void each_centre(Grain<2> grain, auto action) const {
+    const auto [at, velocity] =
+        first_image(period_, {{grain.at[0], grain.at[1]}, {grain.velocity[0], grain.velocity[1]}});
+    if (!open_.holds(at.x, at.z)) return;
+    grain.at = place(at);
+    grain.velocity = {velocity.x, velocity.z};
+    action(std::size_t{0}, 1.0, grain);
+  }
+  void each_share(const HalfBranch<2>& branch, auto action) const {
+    const Point at = period_.first({branch.at[0], branch.at[1]});
+    action(std::size_t{0}, share_inside(open_, at.x, at.z, branch.toward[0], branch.toward[1]), branch);
+  }
+  /// Of the contacts of the grains with their centres in the box.
+  void each_end(const HalfBranch<2>& branch, auto action) const {
+    const Point at = period_.first({branch.at[0], branch.at[1]});
+    if (open_.holds(at.x, at.z)) action(std::size_t{0}, 1.0, branch);
+  }
+
+  const Period& period() const { return period_; }
+  bool holds(Point at) const { return open_.holds(at.x, at.z); }
+  /// Counted from the middle of the box.
+  Vector<2> place(Point at) const { return {at.x - middle_.x, at.z - middle_.z}; }
+
+ private:
+  Period period_;
+  Box open_;
+  Point middle_;
+};
 
 /// Affine part of the motion from one snapshot to the next of the grains that are in the box half-way: the
 /// matrix of the least squares fit of displacement over the place half-way, divided by the time. The place

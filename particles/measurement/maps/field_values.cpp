@@ -87,19 +87,19 @@ void set_velocity(const MapNode& m, MapValues& f) {
 /// `inside`: share of the kernel within the container.
 void set_fields(const MapNode& m, double inside, MapValues& f) {
   const Fields<2> fields = derive(m, Background<2>{inside});
-  const auto [along_x, along_z] = fields.pressure();
+  const PlaneMatrix pressure = plane_matrix(fields.pressure());
   f.omega = fields.omega;
   f.coordination = fields.coordination;
   f.sigma_xx_kinetic = fields.kinetic[0][0];
   f.sigma_zz_kinetic = fields.kinetic[1][1];
   f.sigma_xz_kinetic = -fields.kinetic[0][1];
   // The reported shear stress is the traction of the upper side on the lower one.
-  f.sigma_xx = along_x[0];
-  f.sigma_zz = along_z[1];
-  f.sigma_xz = -along_x[1];
-  f.sigma_zx = -along_z[0];
-  static_cast<PlaneInvariants&>(f) = plane_invariants({along_x[0], along_x[1], along_z[0], along_z[1]},
-                                                      {f.d_v_x_dx, f.d_v_x_dz, f.d_v_z_dx, f.d_v_z_dz});
+  f.sigma_xx = pressure.xx;
+  f.sigma_zz = pressure.zz;
+  f.sigma_xz = -pressure.xz;
+  f.sigma_zx = -pressure.zx;
+  static_cast<PlaneInvariants&>(f) =
+      plane_invariants(pressure, {f.d_v_x_dx, f.d_v_x_dz, f.d_v_z_dx, f.d_v_z_dz});
   f.fabric_xx = fields.fabric[0][0];
   f.fabric_xz = fields.fabric[0][1];
   f.fabric_zz = fields.fabric[1][1];

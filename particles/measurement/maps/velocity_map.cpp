@@ -27,7 +27,7 @@ double VelocityMap::wrapped(double x) const {
   return period_ > 0 ? x - period_ * std::floor((x - x_min_) / period_) : x;
 }
 
-const VelocityMap::Sum* VelocityMap::sum_at(double column, double row) const {
+const Spread<2>* VelocityMap::sum_at(double column, double row) const {
   const auto columns = static_cast<double>(columns_);
   if (period_ > 0) column -= columns * std::floor(column / columns);
   if (!(column >= 0 && column < columns && row >= 0 && row < static_cast<double>(rows_))) return nullptr;
@@ -36,13 +36,9 @@ const VelocityMap::Sum* VelocityMap::sum_at(double column, double row) const {
 
 void VelocityMap::add(const FlowSnapshot& snapshot) {
   for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
-    const Sum* const found =
+    const Spread<2>* const found =
         sum_at(std::floor((wrapped(snapshot.x[i]) - x_min_) / cell_x_), std::floor(snapshot.z[i] - z_min_));
-    if (found == nullptr) continue;
-    Sum& sum = cells_[static_cast<std::size_t>(found - cells_.data())];
-    sum.grains += 1;
-    sum.v_x += snapshot.v_x[i];
-    sum.v_z += snapshot.v_z[i];
+    if (found != nullptr) cells_[found - cells_.data()].add(1, {snapshot.v_x[i], snapshot.v_z[i]});
   }
 }
 
@@ -52,13 +48,13 @@ std::array<double, 2> VelocityMap::at(double x, double z) const {
   double weights = 0, grains = 0, v_x = 0, v_z = 0;
   for (const double right : {0.0, 1.0})
     for (const double above : {0.0, 1.0}) {
-      const Sum* const sum = sum_at(column + right, row + above);
-      if (sum == nullptr || sum->grains == 0) continue;
+      const Spread<2>* const sum = sum_at(column + right, row + above);
+      if (sum == nullptr || sum->weight == 0) continue;
       const double weight = (1 - std::abs(along - column - right)) * (1 - std::abs(up - row - above));
       weights += weight;
-      grains += sum->grains;
-      v_x += weight * sum->v_x / sum->grains;
-      v_z += weight * sum->v_z / sum->grains;
+      grains += sum->weight;
+      v_x += weight * sum->first[0] / sum->weight;
+      v_z += weight * sum->first[1] / sum->weight;
     }
   if (grains < least_grains || !(weights > 0))
     return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};

@@ -19,16 +19,13 @@ class VelocityMap {
   std::array<double, 2> at(double x, double z) const;
 
  private:
-  struct Sum {
-    double grains = 0, v_x = 0, v_z = 0;
-  };
   /// The cell of column and row, or null beyond the map; columns of a period follow each other round.
-  const Sum* sum_at(double column, double row) const;
+  const Spread<2>* sum_at(double column, double row) const;
   double wrapped(double x) const;
 
   double x_min_, z_min_, period_, cell_x_ = 1;
   std::size_t columns_, rows_;
-  std::vector<Sum> cells_;
+  std::vector<Spread<2>> cells_;
 };
 
 }  // namespace drumlin::particles

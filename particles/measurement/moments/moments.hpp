@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "coupling/common/no_value.hpp"
+#include "coupling/results/plane_invariants.hpp"
 
 namespace drumlin::particles {
 
@@ -18,6 +19,8 @@ template <int D>
 using Vector = std::array<double, D>;
 template <int D>
 using Tensor = std::array<Vector<D>, D>;
+
+inline PlaneMatrix plane_matrix(const Tensor<2>& t) { return {t[0][0], t[0][1], t[1][0], t[1][1]}; }
 
 /// A grain as a region sees it: places and velocities in the region's own axes.
 template <int D>
@@ -99,6 +102,10 @@ struct Moments {
   void add_share(double share, const HalfBranch<D>& branch) {
     for (int a = 0; a < D; ++a)
       for (int b = 0; b < D; ++b) force_branch[a][b] -= share * branch.force[a] * branch.toward[b];
+  }
+  /// Contacts between grains.
+  void add_end(double weight, const HalfBranch<D>& branch) {
+    if (!branch.at_wall) add_fabric(weight, branch.normal);
   }
   void add_fabric(double weight, const Vector<D>& normal) {
     for (int a = 0, k = 0; a < D; ++a)

@@ -1,0 +1,36 @@
+#pragma once
+// Binnings that need no geometry: everything in one region, and each grain for itself, with its half
+// branches.
+#include "particles/measurement/moments/accumulate.hpp"
+
+namespace drumlin::particles {
+
+/// Moments with the area of the grains and their motion by mass; places are not kept.
+struct GrainSum : Moments<2> {
+  void add_part(double area, const Grain<2>&) { solid += area; }
+  void add_centre(double weight, const Grain<2>& grain) {
+    Moments::add_centre(weight, grain);
+    motion.add(weight * grain.mass(), grain.velocity);
+  }
+};
+
+template <bool each_for_itself>
+struct WholeGrains {
+  static std::size_t bin_of(std::size_t grain) { return each_for_itself ? grain : 0; }
+  void each_part(const Grain<2>& grain, auto action) const { action(bin_of(grain.index), grain.area()); }
+  void each_centre(const Grain<2>& grain, auto action) const { action(bin_of(grain.index), 1.0, grain); }
+  void each_share(const HalfBranch<2>& branch, auto action) const {
+    action(bin_of(branch.grain), 1.0, branch);
+  }
+};
+using Everywhere = WholeGrains<false>;
+using EachGrain = WholeGrains<true>;  ///< the region of a grain is its Voronoi cell
+
+/// Of each grain of a snapshot.
+inline std::vector<GrainSum> sums_of_grains(const FlowSnapshot& snapshot) {
+  std::vector<GrainSum> sums(snapshot.x.size());
+  accumulate(snapshot, EachGrain{}, sums);
+  return sums;
+}
+
+}  // namespace drumlin::particles
