@@ -27,8 +27,8 @@ diameter_max_mm = 4
 region = {{ shape = "rectangle", min_mm = [2, 3], max_mm = [28, 40] }}
 """
 
-# A disc that falls: no friction, no spin, one wall. Its title is what a figure must not take for mathematics.
-ONE_DISC = 'format = "drumlin-scene-1"\ntitle = "$x_1$ \\\\alpha_{5 % of <b>one</b> disc & $"\n' + GRAINS.format(count=1) + """
+# A disc that falls, in the air in snapshot 1: no friction, no spin, one wall. Its title is what a figure must not take for mathematics.
+ONE_DISC = 'format = "drumlin-scene-1"\ntitle = "$x_1$ \\\\alpha_{5 % of <b>one</b> disc & $"\n' + GRAINS.format(count=1).replace("[2, 3]", "[2, 30]") + """
 [[walls]]
 name = "floor"
 shape = "segment"
@@ -347,7 +347,8 @@ def exports(drumlin, one_disc, periodic, folder):
     # No spin, no friction: no array of it; a disc in the air has no contact, and the file says so.
     drumlin("export", one_disc, "--vtu", "-o", folder / "export", "--snapshots", "1")
     require("spin_clockwise_rad_s" not in arrays_of(folder / "export" / "grains" / "000001.vtu"), "a spin that is not there")
-    arrays_of(folder / "export" / "contacts" / "000001.vtu")
+    none = arrays_of(folder / "export" / "contacts" / "000001.vtu")
+    require({"Points", "connectivity", "normal_force_N_m"} <= set(none) and not any(map(len, none.values())), f"contacts of a disc in the air: {none}")
     drumlin("export", one_disc, "--vtu", "-o", folder / "export", "--resume", code=2)  # of all snapshots
     text, _ = drumlin("export", one_disc, "--vtu", "-o", folder / "export", "--snapshots", "1", "--resume")
     require("done already" in text, f"exported again: {text}")

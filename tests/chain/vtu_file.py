@@ -16,7 +16,8 @@ def content_of(text, form):
     """Bytes of one array: sizes of its blocks, encoded by themselves, and then the blocks."""
     letters = lambda count: (count * struct.calcsize(form) + 2) // 3 * 4
     blocks, size, rest = struct.unpack(f"<3{form}", base64.b64decode(text[:letters(3)]))
-    if not blocks:
+    if not blocks:  # as VTK writes an empty array; it ends here
+        require(rest == 0, f"no block, and one of {rest} bytes")
         return b""
     packed = struct.unpack(f"<4{form}", base64.b64decode(text[:letters(4)]))[3]
     raw = zlib.decompress(base64.b64decode(text[letters(4):letters(4) + (packed + 2) // 3 * 4], validate=True))

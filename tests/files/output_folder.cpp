@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/files/folder_lock.hpp"
 #include "coupling/common/files/result_folder.hpp"
 #include "coupling/common/files/text_file.hpp"
 #include "tests/files/folder.hpp"
@@ -260,6 +262,22 @@ TEST(OutputFolder, HasOneWriter) {
     const auto message = message_of<InputError>([&] { StagedOutput{request_for(folder / "out", existing)}; });
     expect_has(message, "is being written by process");
   }
+}
+
+TEST(OutputFolder, TheLockOfAnotherUserSaysWhose) {
+  if (::geteuid() != 0) GTEST_SKIP() << "takes root to be another user";
+  const TemporaryFolder folder;
+  fs::permissions(folder.path(), fs::perms::all);
+  const fs::path lock = folder / folder_lock_name;
+  replace_file(lock, "process 7, drumlin run, since then");
+  fs::permissions(lock, fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read);
+  ASSERT_EQ(::seteuid(65534), 0);
+  const auto message = message_of<InputError>([&] { FolderLock{lock, "test"}; });
+  ASSERT_EQ(::seteuid(0), 0);
+  expect_has(
+      message,
+      ".lock: is of user root: of a run that goes on (process 7, drumlin run, since then), or was killed");
+  EXPECT_TRUE(fs::exists(lock));
 }
 
 TEST(GrowingOutput, GoesOnOnlyFromFilesThatAreWhole) {

@@ -39,7 +39,7 @@ struct FlowSnapshot {
   std::optional<FlowCell> cell;
 
   double density_of(std::size_t grain) const { return density.empty() ? 1 : density[grain]; }
-  Grain<2> grain(std::size_t i) const {
+  GrainSample<2> grain(std::size_t i) const {
     return {i,
             {x[i], z[i]},
             {v_x[i], v_z[i]},

@@ -27,7 +27,7 @@ GrainFields grain_fields(const Snapshot& snapshot, const FlowSnapshot& in_frame,
   }
   const std::vector<GrainSum> sums = sums_of_grains(in_frame);
   for (std::size_t i = 0; i < sums.size(); ++i) {
-    const Grain<2> grain = in_frame.grain(i);
+    const GrainSample<2> grain = in_frame.grain(i);
     const double area = fields.cell_area[i];
     const Fields<2> of_cell = derive(sums[i], Background<2>{area});
     fields.nu.push_back(of_cell.nu);

@@ -31,8 +31,8 @@ PlaneMatrix scaled(double factor, const PlaneMatrix& m) {
 }
 
 struct RegionSum : Moments<2, 4> {
-  void add_part(double area, const Grain<2>&) { solid += area; }
-  void add_centre(double weight, const Grain<2>& grain) {
+  void add_part(double area, const GrainSample<2>&) { solid += area; }
+  void add_centre(double weight, const GrainSample<2>& grain) {
     Moments::add_centre(weight, grain);
     motion.add(weight * grain.mass(), {grain.velocity[0], grain.velocity[1], grain.at[0], grain.at[1]});
   }

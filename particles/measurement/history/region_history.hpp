@@ -42,10 +42,11 @@ class BoxBinning {
  public:
   BoxBinning(const Box& box, const Period& period);
 
-  void each_part(const Grain<2>& grain, auto action) const {
-    each_centre(grain, [&](std::size_t, double, const Grain<2>&) { action(std::size_t{0}, grain.area()); });
+  void each_part(const GrainSample<2>& grain, auto action) const {
+    each_centre(grain,
+                [&](std::size_t, double, const GrainSample<2>&) { action(std::size_t{0}, grain.area()); });
   }
-  void each_centre(Grain<2> grain, auto action) const {
+  void each_centre(GrainSample<2> grain, auto action) const {
     const auto [at, velocity] =
         first_image(period_, {{grain.at[0], grain.at[1]}, {grain.velocity[0], grain.velocity[1]}});
     if (!open_.holds(at.x, at.z)) return;

@@ -58,9 +58,9 @@ class LayerBinning {
   explicit LayerBinning(const LayerGrid& grid) : grid_(grid) {}
 
   template <class Action>
-  void each_part(const Grain<2>& grain, Action action) const;
+  void each_part(const GrainSample<2>& grain, Action action) const;
   template <class Action>
-  void each_centre(Grain<2> grain, Action action) const {
+  void each_centre(GrainSample<2> grain, Action action) const {
     const std::size_t layer = grid_.layer_of(grain.at[0], grain.at[1]);
     if (layer >= grid_.layers()) return;
     grain.at[1] -= grid_.z_of(layer);
@@ -93,9 +93,9 @@ class RingBinning {
   explicit RingBinning(const LayerGrid& grid) : grid_(grid) {}
 
   template <class Action>
-  void each_part(const Grain<2>& grain, Action action) const;
+  void each_part(const GrainSample<2>& grain, Action action) const;
   template <class Action>
-  void each_centre(Grain<2> grain, Action action) const {
+  void each_centre(GrainSample<2> grain, Action action) const {
     const double r = std::hypot(grain.at[0], grain.at[1]), ring = std::floor(r / grid_.thickness);
     if (!(ring < static_cast<double>(grid_.layers()))) return;
     const auto index = static_cast<std::size_t>(ring);
@@ -120,7 +120,7 @@ class RingBinning {
 };
 
 template <class Action>
-void LayerBinning::each_part(const Grain<2>& grain, Action action) const {
+void LayerBinning::each_part(const GrainSample<2>& grain, Action action) const {
   const auto [x, z] = grain.at;
   const double radius = grain.radius, z_min = grid_.z_min, thickness = grid_.thickness;
   if (x + radius <= grid_.x_min || x - radius >= grid_.x_max) return;
@@ -170,7 +170,7 @@ void LayerBinning::each_share(const HalfBranch<2>& branch, Action action) const 
 }
 
 template <class Action>
-void RingBinning::each_part(const Grain<2>& grain, Action action) const {
+void RingBinning::each_part(const GrainSample<2>& grain, Action action) const {
   const double r = std::hypot(grain.at[0], grain.at[1]), radius = grain.radius, thickness = grid_.thickness;
   const double first = std::max(0.0, std::floor((r - radius) / thickness));
   const double end = std::min(static_cast<double>(grid_.layers()), std::ceil((r + radius) / thickness));

@@ -5,7 +5,7 @@
 
 namespace drumlin::particles {
 
-void LayerSum::add_centre(double weight, const Grain<2>& grain) {
+void LayerSum::add_centre(double weight, const GrainSample<2>& grain) {
   Moments::add_centre(weight, grain);
   const std::array motion_and_place{grain.velocity[0], grain.velocity[1], grain.at[0], grain.at[1]};
   each.add(weight, motion_and_place);

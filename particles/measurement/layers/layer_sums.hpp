@@ -17,11 +17,11 @@ struct LayerSum : Moments<2, 4> {
     double grains = 0, discs = 0, cells = 0, nu = 0, stress_xx = 0, stress_zz = 0, stress_xz = 0;
   } cells;
 
-  void add_part(double area, const Grain<2>& grain) {
+  void add_part(double area, const GrainSample<2>& grain) {
     solid += area;
     solid_mass += grain.density * area;
   }
-  void add_centre(double weight, const Grain<2>& grain);
+  void add_centre(double weight, const GrainSample<2>& grain);
 };
 
 /// Sums of all layers over some snapshots.

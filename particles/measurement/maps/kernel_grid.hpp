@@ -26,9 +26,9 @@ class KernelGrid {
 
   /// A grain and its images, which a moving cell makes faster.
   template <class Action>
-  void each_centre(const Grain<2>& grain, Action action) const {
+  void each_centre(const GrainSample<2>& grain, Action action) const {
     each_image(grain.at, 0, [&](double columns, double rows, const Vector<2>& at) {
-      Grain<2> seen = grain;
+      GrainSample<2> seen = grain;
       seen.at = at;
       if (cell_) {
         const Vector<2> faster{rows * cell_->v_x + columns * cell_->right_v_x, rows * cell_->v_z};

@@ -10,7 +10,7 @@
 
 namespace drumlin::particles {
 
-void MapNode::add_centre(const KernelWeight& at, const Grain<2>& grain) {
+void MapNode::add_centre(const KernelWeight& at, const GrainSample<2>& grain) {
   const auto [phi, phi_x, phi_z] = at;
   const auto [u_x, u_z] = grain.laboratory_velocity;
   const double area = grain.area(), mass = grain.density * area;
@@ -70,7 +70,7 @@ void add_snapshot(const CoarseGraining& graining, const Snapshot& snapshot, cons
   for (std::size_t i = 0; i < in_frame.x.size(); ++i) {
     Point velocity{snapshot.v_x[i], snapshot.v_z[i]};
     if (snapshot.cell) velocity = first_image(period, grain_of(snapshot, i)).velocity;
-    Grain<2> grain = in_frame.grain(i);
+    GrainSample<2> grain = in_frame.grain(i);
     grain.laboratory_velocity = {frame.along(velocity.x, velocity.z), frame.normal(velocity.x, velocity.z)};
     grain.force = force[i];
     add_grain(grain, binning, sums.nodes);

@@ -26,7 +26,7 @@ struct MapNode : Moments<2> {
   /// the next after the time t, times m t, m d_x, m d_z; d/dx and d/dz of it.
   std::array<double, 3> moved{}, moved_slope_x{}, moved_slope_z{};
 
-  void add_centre(const KernelWeight& at, const Grain<2>& grain);
+  void add_centre(const KernelWeight& at, const GrainSample<2>& grain);
   /// The fabric takes half of each side, so that a contact with a wall counts half.
   void add_end(double phi, const HalfBranch<2>& branch) {
     add_fabric(phi / 2, branch.normal);

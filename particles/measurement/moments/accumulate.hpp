@@ -14,11 +14,12 @@ namespace drumlin::particles {
 ///   each_end(branch, action(bin, weight, branch))    what counts at one point of a contact; add_end()
 /// A binning without parts or ends is for bins that ask for none.
 template <class Binning, class Bins>
-void add_grain(const Grain<2>& grain, Binning& binning, Bins& bins) {
+void add_grain(const GrainSample<2>& grain, Binning& binning, Bins& bins) {
   if constexpr (requires { binning.each_part(grain, [](std::size_t, double) {}); })
     binning.each_part(grain, [&](auto bin, double area) { bins[bin].add_part(area, grain); });
-  binning.each_centre(
-      grain, [&](auto bin, const auto& weight, const Grain<2>& seen) { bins[bin].add_centre(weight, seen); });
+  binning.each_centre(grain, [&](auto bin, const auto& weight, const GrainSample<2>& seen) {
+    bins[bin].add_centre(weight, seen);
+  });
 }
 
 template <class Binning, class Bins>

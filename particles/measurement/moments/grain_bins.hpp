@@ -7,8 +7,8 @@ namespace drumlin::particles {
 
 /// Moments with the area of the grains and their motion by mass; places are not kept.
 struct GrainSum : Moments<2> {
-  void add_part(double area, const Grain<2>&) { solid += area; }
-  void add_centre(double weight, const Grain<2>& grain) {
+  void add_part(double area, const GrainSample<2>&) { solid += area; }
+  void add_centre(double weight, const GrainSample<2>& grain) {
     Moments::add_centre(weight, grain);
     motion.add(weight * grain.mass(), grain.velocity);
   }
@@ -17,8 +17,12 @@ struct GrainSum : Moments<2> {
 template <bool each_for_itself>
 struct WholeGrains {
   static std::size_t bin_of(std::size_t grain) { return each_for_itself ? grain : 0; }
-  void each_part(const Grain<2>& grain, auto action) const { action(bin_of(grain.index), grain.area()); }
-  void each_centre(const Grain<2>& grain, auto action) const { action(bin_of(grain.index), 1.0, grain); }
+  void each_part(const GrainSample<2>& grain, auto action) const {
+    action(bin_of(grain.index), grain.area());
+  }
+  void each_centre(const GrainSample<2>& grain, auto action) const {
+    action(bin_of(grain.index), 1.0, grain);
+  }
   void each_share(const HalfBranch<2>& branch, auto action) const {
     action(bin_of(branch.grain), 1.0, branch);
   }

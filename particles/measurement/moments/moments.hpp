@@ -24,7 +24,7 @@ inline PlaneMatrix plane_matrix(const Tensor<2>& t) { return {t[0][0], t[0][1], 
 
 /// A grain as a region sees it: places and velocities in the region's own axes.
 template <int D>
-struct Grain {
+struct GrainSample {
   std::size_t index = 0;
   Vector<D> at{}, velocity{};  ///< relative to the drum, over the stored window
   double radius = 0, density = 1, contacts = 0, spin = 0;
@@ -94,7 +94,7 @@ struct Moments {
                                                ///< so that repulsion counts positive
   std::array<double, D*(D + 1) / 2> fabric{};  ///< n_a n_b, a <= b
 
-  void add_centre(double weight, const Grain<D>& grain) {
+  void add_centre(double weight, const GrainSample<D>& grain) {
     grains += weight;
     contacts += weight * grain.contacts;
     spin += weight * grain.spin;
