@@ -7,15 +7,15 @@
 #include <variant>
 #include <vector>
 
-#include "coupling/law/forms/constant_law.hpp"
-#include "coupling/law/forms/jop_law.hpp"
-#include "coupling/law/forms/log_law.hpp"
-#include "coupling/law/forms/log_linear_law.hpp"
-#include "coupling/law/forms/tabulated_law.hpp"
+#include "coupling/law/constant_law.hpp"
+#include "coupling/law/jop_law.hpp"
+#include "coupling/law/log_law.hpp"
+#include "coupling/law/log_linear_law.hpp"
+#include "coupling/law/tabulated_law.hpp"
 
 namespace drumlin {
 
-/// The one list of the forms (coupling/law/forms/form.hpp says what a form is). Code that evaluates a law at
+/// The one list of the forms (coupling/law/form.hpp says what a form is). Code that evaluates a law at
 /// many points visits it once.
 using FrictionLaw = std::variant<LogLaw, LogLinearLaw, ConstantLaw, JopLaw, TabulatedLaw>;
 

@@ -47,16 +47,6 @@ def test_a_snapshot_is_what_the_simulation_saw(run, tmp_path):
         assert (stored[name] == simulation.contacts[name]).all()
 
 
-def test_files_take_the_place_of_no_fifo(run, data, tmp_path):
-    fifo = tmp_path / "fifo"
-    os.mkfifo(fifo)
-    with pytest.raises(drumlin.InputError, match="is a FIFO"):
-        drumlin.Simulation(run.path / "scene.toml").save_snapshot(str(fifo))
-    with pytest.raises(OSError, match="a FIFO"):
-        drumlin.Law(data / "rheology/drum-6rpm.toml").write(fifo)
-    assert fifo.is_fifo()
-
-
 def test_measurements_are_read(data):
     folder = drumlin.read(data / "bed/6rpm-5turns-seed1/measured")
     profiles, maps = folder["profiles.csv"], folder["maps.h5"]

@@ -9,7 +9,7 @@
 
 #include "particles/bodies/snapshot.hpp"
 #include "particles/measurement/frame/flow_frame.hpp"
-#include "particles/measurement/moments/moments.hpp"
+#include "particles/measurement/frame/moments.hpp"
 
 namespace drumlin::particles {
 

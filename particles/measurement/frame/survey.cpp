@@ -9,8 +9,8 @@
 #include "coupling/statistics/straight_line.hpp"
 #include "particles/measurement/frame/dense_window.hpp"
 #include "particles/measurement/frame/flow_snapshot.hpp"
+#include "particles/measurement/frame/grain_bins.hpp"
 #include "particles/measurement/frame/intervals.hpp"
-#include "particles/measurement/moments/grain_bins.hpp"
 
 namespace drumlin::particles {
 namespace {

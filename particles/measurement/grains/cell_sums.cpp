@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "coupling/common/no_value.hpp"
-#include "particles/measurement/moments/grain_bins.hpp"
+#include "particles/measurement/frame/grain_bins.hpp"
 
 namespace drumlin::particles {
 

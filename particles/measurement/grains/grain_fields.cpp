@@ -1,7 +1,7 @@
 #include "particles/measurement/grains/grain_fields.hpp"
 
 #include "coupling/common/no_value.hpp"
-#include "particles/measurement/moments/grain_bins.hpp"
+#include "particles/measurement/frame/grain_bins.hpp"
 
 namespace drumlin::particles {
 namespace {

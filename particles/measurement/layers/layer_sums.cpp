@@ -1,7 +1,7 @@
 #include "particles/measurement/layers/layer_sums.hpp"
 
+#include "particles/measurement/frame/accumulate.hpp"
 #include "particles/measurement/frame/intervals.hpp"
-#include "particles/measurement/moments/accumulate.hpp"
 
 namespace drumlin::particles {
 

@@ -6,7 +6,7 @@
 
 #include "coupling/common/errors.hpp"
 #include "particles/bodies/cell_path.hpp"
-#include "particles/measurement/moments/accumulate.hpp"
+#include "particles/measurement/frame/accumulate.hpp"
 
 namespace drumlin::particles {
 

@@ -1,7 +1,7 @@
 #pragma once
 // Binnings that need no geometry: everything in one region, and each grain for itself, with its half
 // branches.
-#include "particles/measurement/moments/accumulate.hpp"
+#include "particles/measurement/frame/accumulate.hpp"
 
 namespace drumlin::particles {
 

@@ -1,6 +1,6 @@
 #pragma once
 // mu = a + b ln I + c I, kept positive: the logarithm of slow flow, and what fast flow adds.
-#include "coupling/law/forms/form.hpp"
+#include "coupling/law/form.hpp"
 
 namespace drumlin {
 

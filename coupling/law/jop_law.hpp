@@ -1,6 +1,6 @@
 #pragma once
 // Jop, Forterre & Pouliquen, Nature 441 (2006): mu = mu_s + (mu_2 - mu_s)/(I_0/I + 1).
-#include "coupling/law/forms/form.hpp"
+#include "coupling/law/form.hpp"
 
 namespace drumlin {
 

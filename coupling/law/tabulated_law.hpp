@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "coupling/law/forms/form.hpp"
+#include "coupling/law/form.hpp"
 #include "coupling/law/monotone_cubic.hpp"
 
 namespace drumlin {

@@ -1,6 +1,6 @@
 #pragma once
 // The same friction at every rate: Drucker and Prager's plasticity.
-#include "coupling/law/forms/form.hpp"
+#include "coupling/law/form.hpp"
 
 namespace drumlin {
 

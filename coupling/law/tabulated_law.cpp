@@ -1,4 +1,4 @@
-#include "coupling/law/forms/tabulated_law.hpp"
+#include "coupling/law/tabulated_law.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "coupling/law/forms/form.hpp"
+#include "coupling/law/form.hpp"
 
 #include <fmt/format.h>
 

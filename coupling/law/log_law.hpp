@@ -2,7 +2,7 @@
 // mu = a + b ln I, kept positive.
 #include <array>
 
-#include "coupling/law/forms/form.hpp"
+#include "coupling/law/form.hpp"
 
 namespace drumlin {
 
