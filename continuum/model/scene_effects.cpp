@@ -51,25 +51,8 @@ void check_nonlocal(const FlowEffects& effects, const RheologyFit& law, const St
         "a rheology file whose mu is a logarithm or a table, or effects.nonlocal.amplitude"));
 }
 
-// Each of these takes mu for a function of I.
-void check_friction(const FlowEffects& effects, const RheologyFit& law, std::vector<InputProblem>& problems) {
-  if (is_of_inertial_number(law.mu)) return;
-  const auto refuse = [&](bool named, const char* key) {
-    if (named)
-      problems.push_back({.file = "",
-                          .key = key,
-                          .what = "needs a friction that follows from I alone, and that of the law (" +
-                                  described(law.mu) + ") depends on the pressure, too",
-                          .allowed = "absent, or a rheology file with another mu.law"});
-  };
-  refuse(law.k.has_value(), "k");
-  refuse(effects.memory.has_value(), "effects.memory");
-  refuse(effects.nonlocal.has_value(), "effects.nonlocal");
-}
-
 void check_law(const FlowEffects& effects, const RheologyFit& law, const StressLaw& mu) {
   std::vector<InputProblem> problems;
-  check_friction(effects, law, problems);
   if (effects.memory && !law.memory)
     problems.push_back({.file = "",
                         .key = "effects.memory",

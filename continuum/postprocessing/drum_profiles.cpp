@@ -7,6 +7,7 @@
 
 #include "continuum/postprocessing/gauss_points.hpp"
 #include "coupling/common/no_value.hpp"
+#include "coupling/results/layer_ratios.hpp"
 #include "coupling/results/profile_scalars.hpp"
 
 namespace drumlin::continuum {
@@ -69,7 +70,6 @@ ProfileSet drum_profiles(const FlowField& field, const DrumGeometry& drum, const
     for (const LayerMeans& m : means) result.value.push_back(m.weight > 0 ? value(m) : no_value);
     set.columns.push_back(std::move(result));
   };
-  const auto positive = [](double stress) { return stress > 0 ? stress : no_value; };
   column("v_x", [](const LayerMeans& m) { return m.v_x / m.weight; });
   column("v_z", [](const LayerMeans& m) { return m.v_z / m.weight; });
   column("shear_rate", [](const LayerMeans& m) { return m.shear_rate / m.weight; });
@@ -77,11 +77,7 @@ ProfileSet drum_profiles(const FlowField& field, const DrumGeometry& drum, const
   column("sigma_xx", [](const LayerMeans& m) { return m.sigma_xx / m.weight; });
   column("sigma_zz", [](const LayerMeans& m) { return m.sigma_zz / m.weight; });
   column("sigma_xz", [](const LayerMeans& m) { return m.sigma_xz / m.weight; });
-  column("I", [&](const LayerMeans& m) {
-    return m.shear_rate / m.weight / std::sqrt(positive(m.sigma_zz / m.weight));
-  });
-  column("mu", [&](const LayerMeans& m) { return m.sigma_xz / positive(m.sigma_zz); });
-  column("k", [&](const LayerMeans& m) { return m.sigma_xx / positive(m.sigma_zz); });
+  add_layer_ratios(set);
   return set;
 }
 

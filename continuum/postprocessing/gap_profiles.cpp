@@ -7,7 +7,7 @@
 
 #include "continuum/postprocessing/gauss_points.hpp"
 #include "continuum/reference/gap_solution.hpp"
-#include "coupling/common/no_value.hpp"
+#include "coupling/results/layer_ratios.hpp"
 
 namespace drumlin::continuum {
 namespace {
@@ -172,10 +172,6 @@ ProfileSet gap_profiles(const FlowField& field, const Gap& gap, double layer_thi
       sum += states[row * per_layer + k].*quantity * gauss[k / (per_layer / gauss.size())].weight;
     return sum / sections(gap);
   };
-  const auto pressure = [&](int row) {
-    const double p = mean(row, &LocalState::sigma_zz);
-    return p > 0 ? p : no_value;
-  };
   column("v_x", [&](int row) { return mean(row, &LocalState::v_x); });
   column("v_z", [&](int row) { return mean(row, &LocalState::v_z); });
   column("shear_rate", [&](int row) { return mean(row, &LocalState::shear_rate); });
@@ -183,9 +179,7 @@ ProfileSet gap_profiles(const FlowField& field, const Gap& gap, double layer_thi
   column("sigma_xx", [&](int row) { return mean(row, &LocalState::sigma_xx); });
   column("sigma_zz", [&](int row) { return mean(row, &LocalState::sigma_zz); });
   column("sigma_xz", [&](int row) { return mean(row, &LocalState::sigma_xz); });
-  column("I", [&](int row) { return mean(row, &LocalState::shear_rate) / std::sqrt(pressure(row)); });
-  column("mu", [&](int row) { return mean(row, &LocalState::sigma_xz) / pressure(row); });
-  column("k", [&](int row) { return mean(row, &LocalState::sigma_xx) / pressure(row); });
+  add_layer_ratios(set);
   return set;
 }
 

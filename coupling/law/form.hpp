@@ -6,9 +6,7 @@
 //   name, sentence: as the file's reader shows them
 //   faults(): what does not hold between the keys
 //   words(): the law in messages
-// the law itself, as one of
-//   friction(I): mu and I dmu/dI, where the inertial number alone decides (OfInertialNumber)
-//   strength(rate, p): the shear strength, where the pressure does, too
+//   friction(I): mu and I dmu/dI
 // and what of this it has
 //   threshold(): mu_s, below which the material stands still
 //   I_min, I_max: the range that it was fitted on
@@ -57,9 +55,17 @@ inline Allowed number_range() { return at_least(1e-12, 1e3); }
 /// Faults of a fitted law that is mu at I_max. Below I_max it may fall to nothing, as the logarithm does.
 std::vector<FormFault> faults_of_fit(double mu, double I_min, double I_max);
 
+/// The keys of the range that a law was fitted on.
+template <class Visitor, class Law>
+void describe_range(Visitor& v, Law& t) {
+  v.value("I_min", t.I_min, required("", number_range(), "Smallest inertial number of the fit."));
+  v.value("I_max", t.I_max, required("", number_range(), "Largest inertial number of the fit."));
+}
+
 /// A number in a message: six digits at most.
 std::string in_words(double number);
 
+/// All forms; a Newtonian fluid is no such law.
 template <class Law>
 concept OfInertialNumber = requires(const Law& law) {
   law.friction(1.0);

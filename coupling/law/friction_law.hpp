@@ -32,10 +32,7 @@ Strength strength(const Law& law, double rate, double pressure) {
   }
 }
 
-/// Whether I alone decides over mu: k, memory and fluidity go with no other law.
-bool is_of_inertial_number(const FrictionLaw& law);
-
-/// mu and I dmu/dI at I > 0. Throws InputError where the pressure decides, too.
+/// mu and I dmu/dI at I > 0.
 FrictionValue friction_at(const FrictionLaw& law, double I);
 
 /// mu_s, the friction below which the material of such a law stands still. Absent for a law that creeps at

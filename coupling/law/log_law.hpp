@@ -36,8 +36,7 @@ void describe(Visitor& v, LogLaw& t) {
   v.value("a", t.a, required("", at_least(-10, 10), "Friction at I = 1."));
   v.value("b", t.b, required("", at_least(-10, 10), "Growth of the friction with ln I, not negative."));
   v.value("covariance", t.covariance, required("", at_least(-100, 100), "var(a), cov(a, b), var(b)."));
-  v.value("I_min", t.I_min, required("", number_range(), "Smallest inertial number of the fit."));
-  v.value("I_max", t.I_max, required("", number_range(), "Largest inertial number of the fit."));
+  describe_range(v, t);
 }
 
 }  // namespace drumlin

@@ -32,8 +32,7 @@ void describe(Visitor& v, LogLinearLaw& t) {
   v.value("a", t.a, required("", at_least(-10, 10), "Friction at I = 1 without the linear term."));
   v.value("b", t.b, required("", at_least(-10, 10), "Growth of the friction with ln I, not negative."));
   v.value("c", t.c, required("", at_least(-1e3, 1e3), "Growth of the friction with I, not negative."));
-  v.value("I_min", t.I_min, required("", number_range(), "Smallest inertial number of the fit."));
-  v.value("I_max", t.I_max, required("", number_range(), "Largest inertial number of the fit."));
+  describe_range(v, t);
 }
 
 }  // namespace drumlin

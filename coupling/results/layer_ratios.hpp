@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "coupling/common/no_value.hpp"
+#include "coupling/results/profile_set.hpp"
 
 namespace drumlin {
 
@@ -21,6 +22,18 @@ struct LayerRatios {
 inline LayerRatios layer_ratios(const LayerStress& sigma, double shear_rate) {
   if (!(sigma.zz > 0)) return {};
   return {shear_rate / std::sqrt(sigma.zz), sigma.xz / sigma.zz, sigma.xx / sigma.zz};
+}
+
+/// Appends the columns I, mu and k of layers, from those of the shear rate and the stresses.
+inline void add_layer_ratios(ProfileSet& set) {
+  ProfileColumn I{"I", {}, {}}, mu{"mu", {}, {}}, k{"k", {}, {}};
+  const auto of = [&set](const char* name, std::size_t l) { return set.column(name).value[l]; };
+  for (std::size_t l = 0; l < set.z.size(); ++l) {
+    const LayerRatios ratios =
+        layer_ratios({of("sigma_xx", l), of("sigma_zz", l), of("sigma_xz", l)}, of("shear_rate", l));
+    I.value.push_back(ratios.I), mu.value.push_back(ratios.mu), k.value.push_back(ratios.k);
+  }
+  set.columns.insert(set.columns.end(), {I, mu, k});
 }
 
 }  // namespace drumlin

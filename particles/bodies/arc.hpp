@@ -21,10 +21,6 @@ Point nearest_on(const Arc&, Point);
 /// Whether that point is the end.
 bool nearest_is_end(const Arc&, Point);
 
-/// Least and greatest coordinates.
-struct Reaches {
-  double x_low, x_high, z_low, z_high;
-};
 Reaches reaches_of(const Arc&);
 
 /// The two halves of a circle's piece from an angle to a greater one, anticlockwise from +x, less than a

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "particles/bodies/arc.hpp"
+#include "particles/bodies/walls.hpp"
 
 namespace drumlin::particles {
 

@@ -109,6 +109,17 @@ Point middle_of(const Shape& shape) {
   return c ? c->center : Point{};
 }
 
+std::optional<Reaches> reaches_of(const Shape& shape) {
+  if (const auto* s = std::get_if<Segment>(&shape))
+    return Reaches{std::min(s->from.x, s->to.x), std::max(s->from.x, s->to.x), std::min(s->from.z, s->to.z),
+                   std::max(s->from.z, s->to.z)};
+  if (const auto* d = std::get_if<FixedDisc>(&shape))
+    return Reaches{d->center.x - d->radius, d->center.x + d->radius, d->center.z - d->radius,
+                   d->center.z + d->radius};
+  if (const auto* a = std::get_if<Arc>(&shape)) return reaches_of(*a);
+  return std::nullopt;
+}
+
 double largest_move(const Shape& shape, const Pose& displacement) {
   const Rigid rigid(displacement);
   const auto move_of = [&rigid](Point p) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <bitset>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -62,6 +63,12 @@ using Shape = std::variant<Container, Segment, FixedDisc, Opened, Arc>;
 inline bool is_open(const Shape& shape) { return std::holds_alternative<Opened>(shape); }
 /// Centre of a container or a disc, middle of a segment, joint of an arc; the origin for an opened one.
 Point middle_of(const Shape&);
+/// Least and greatest coordinates.
+struct Reaches {
+  double x_low, x_high, z_low, z_high;
+};
+/// Of a segment, a disc or an arc. A container has discs within it, an opened shape is nowhere: none.
+std::optional<Reaches> reaches_of(const Shape&);
 /// Bound on how far a point of a shape moves by a displacement; 0 for an opened one.
 double largest_move(const Shape&, const Pose& displacement);
 

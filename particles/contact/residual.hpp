@@ -64,14 +64,8 @@ template <class State>
 double summed_impulses(const State& bodies, TeamLoops& loops) {
   if constexpr (requires(typename State::value_type body) { body.inverse_mass; })
     return loops.sum(bodies.size(), [&](std::size_t begin, std::size_t end) {
-      constexpr std::size_t some = 64;  // roots and quotients of these do not wait for the sum
-      std::array<double, some> impulses;
       double sum = 0;
-      for (; begin < end; begin += some) {
-        const std::size_t count = std::min(some, end - begin);
-        for (std::size_t k = 0; k < count; ++k) impulses[k] = impulse_of(bodies[begin + k]);
-        for (std::size_t k = 0; k < count; ++k) sum += impulses[k];
-      }
+      for (std::size_t b = begin; b < end; ++b) sum += impulse_of(bodies[b]);
       return sum;
     });
   else

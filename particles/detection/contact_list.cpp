@@ -60,18 +60,9 @@ double gap_to_segment(const Segment& s, double x, double z, double radius, doubl
 /// Where the centres of discs near a shape can be, `reach` away from its surface; a container has discs
 /// everywhere.
 std::optional<Reaches> surroundings(const Shape& shape, double reach) {
-  const auto around = [reach](const Reaches& r) {
-    return Reaches{r.x_low - reach, r.x_high + reach, r.z_low - reach, r.z_high + reach};
-  };
-  if (const auto* s = std::get_if<Segment>(&shape))
-    return around({std::min(s->from.x, s->to.x), std::max(s->from.x, s->to.x), std::min(s->from.z, s->to.z),
-                   std::max(s->from.z, s->to.z)});
-  if (const auto* d = std::get_if<FixedDisc>(&shape)) {
-    const double r = d->radius + reach;
-    return Reaches{d->center.x - r, d->center.x + r, d->center.z - r, d->center.z + r};
-  }
-  if (const auto* a = std::get_if<Arc>(&shape)) return around(reaches_of(*a));
-  return std::nullopt;
+  std::optional<Reaches> r = reaches_of(shape);
+  if (r) r = {r->x_low - reach, r->x_high + reach, r->z_low - reach, r->z_high + reach};
+  return r;
 }
 
 /// The image of x that is nearest to the middle of a shape. A wall as long as the period meets every grain

@@ -109,11 +109,10 @@ void Recollection::warm_start(const ContactMemory& memory, int dim, double time_
   const double scale = scale_of(memory, time_step);
   const std::int32_t* const place = place_.data();
   loops_.each(place_.size(), [&](std::size_t begin, std::size_t end) {
-    const double* const from = memory.impulse.data();
     double* to = impulses.data() + dim * begin;
     for (std::size_t a = begin; a < end; ++a) {
       const std::int32_t m = place[order[a]];
-      for (int c = 0; c < dim; ++c) *to++ = m < 0 ? 0 : scale * from[dim * m + c];
+      for (int c = 0; c < dim; ++c) *to++ = m < 0 ? 0 : scale * memory.impulse[dim * m + c];
     }
   });
 }

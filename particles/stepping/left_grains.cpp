@@ -20,17 +20,11 @@ void add(const Region& region, double unit, Extent& extent) {
 }
 
 void add(const Shape& shape, Extent& extent) {
-  if (const auto* s = std::get_if<Segment>(&shape)) {
-    extent.add(s->from.x, s->from.z);
-    extent.add(s->to.x, s->to.z);
-  }
-  if (const auto* a = std::get_if<Arc>(&shape)) {
-    const Reaches r = reaches_of(*a);
-    extent.add(r.x_low, r.z_low);
-    extent.add(r.x_high, r.z_high);
+  if (const auto r = reaches_of(shape)) {
+    extent.add(r->x_low, r->z_low);
+    extent.add(r->x_high, r->z_high);
   }
   if (const auto* c = std::get_if<Container>(&shape)) extent.add(c->center.x, c->center.z, c->radius);
-  if (const auto* d = std::get_if<FixedDisc>(&shape)) extent.add(d->center.x, d->center.z, d->radius);
 }
 
 }  // namespace

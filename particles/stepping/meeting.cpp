@@ -242,7 +242,6 @@ void place_pairs(const StepInput& step, std::span<const char> beside_grains, std
   const double h = step.time_step;
   const auto& v_x = step.bodies.v_x;
   const auto& v_z = step.bodies.v_z;
-  const auto& radius = step.bodies.radius;
   const auto& shift = step.free.shift;
   for (Candidate& pair : pairs) {
     if (pair.j < 0) {
@@ -255,8 +254,7 @@ void place_pairs(const StepInput& step, std::span<const char> beside_grains, std
     } else if (const Point u{v_x[pair.i] - v_x[pair.j] - pair.wall_v_x,
                              v_z[pair.i] - v_z[pair.j] - pair.wall_v_z};
                pair.gap + h * normal_part(pair, u) < 0) {
-      const double reach = radius[pair.i] + radius[pair.j], distance = reach + pair.gap;
-      const PairPath path({pair.n_x * distance, pair.n_z * distance}, u, reach);
+      const PairPath path(step, pair, {v_x[pair.i], v_z[pair.i]}, {v_x[pair.j], v_z[pair.j]});
       place_at(path, path.nearest(h), nullptr, pair);
     }
   }

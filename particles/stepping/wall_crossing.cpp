@@ -94,14 +94,7 @@ MovingWall moving_wall(const WallStep& walls, std::size_t shape) {
 /// Where discs end a step that may have crossed a thin wall, if none has moved further than `furthest` along
 /// an axis.
 Reaches ends_of_paths(const WallStep& walls, std::size_t shape, const Period& period, double furthest) {
-  const auto reaches_at = [&](const Shape& wall) {
-    if (const auto* arc = std::get_if<Arc>(&wall)) return reaches_of(*arc);
-    const auto& s = std::get<Segment>(wall);
-    const auto [x_low, x_high] = std::minmax(s.from.x, s.to.x);
-    const auto [z_low, z_high] = std::minmax(s.from.z, s.to.z);
-    return Reaches{x_low, x_high, z_low, z_high};
-  };
-  const Reaches was = reaches_at(walls.before[shape]), is = reaches_at(walls.after[shape]);
+  const Reaches was = *reaches_of(walls.before[shape]), is = *reaches_of(walls.after[shape]);
   const ShapeStep& step = walls.displacement[shape];
   // Straight seen from a wall that turns is bent by at most a quarter of its angle on the relative path.
   const double bend =

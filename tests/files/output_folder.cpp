@@ -265,6 +265,7 @@ TEST(OutputFolder, HasOneWriter) {
 }
 
 TEST(OutputFolder, TheLockOfAnotherUserSaysWhose) {
+  // Root alone may become another user for a while, and nobody else can leave a file of somebody else.
   if (::geteuid() != 0) GTEST_SKIP() << "takes root to be another user";
   const TemporaryFolder folder;
   fs::permissions(folder.path(), fs::perms::all);

@@ -1,18 +1,24 @@
 #pragma once
-// Binnings that need no geometry: everything in one region, and each grain for itself, with its half
-// branches.
+// Whole grains in bins, and binnings that need no geometry: everything in one region, and each grain for
+// itself, with its half branches.
 #include "particles/measurement/frame/accumulate.hpp"
 
 namespace drumlin::particles {
 
-/// Moments with the area of the grains and their motion by mass; places are not kept.
-struct GrainSum : Moments<2> {
-  void add_part(double area, const GrainSample<2>&) { solid += area; }
+/// Moments with the area of the grains and their motion by mass; with places where N = 4.
+template <int N>
+struct WholeGrainSum : Moments<2, N> {
+  void add_part(double area, const GrainSample<2>&) { this->solid += area; }
   void add_centre(double weight, const GrainSample<2>& grain) {
-    Moments::add_centre(weight, grain);
-    motion.add(weight * grain.mass(), grain.velocity);
+    Moments<2, N>::add_centre(weight, grain);
+    const auto& v = grain.velocity;
+    if constexpr (N == 4)
+      this->motion.add(weight * grain.mass(), {v[0], v[1], grain.at[0], grain.at[1]});
+    else
+      this->motion.add(weight * grain.mass(), v);
   }
 };
+using GrainSum = WholeGrainSum<2>;
 
 template <bool each_for_itself>
 struct WholeGrains {

@@ -30,13 +30,7 @@ PlaneMatrix scaled(double factor, const PlaneMatrix& m) {
   return {factor * m.xx, factor * m.xz, factor * m.zx, factor * m.zz};
 }
 
-struct RegionSum : Moments<2, 4> {
-  void add_part(double area, const GrainSample<2>&) { solid += area; }
-  void add_centre(double weight, const GrainSample<2>& grain) {
-    Moments::add_centre(weight, grain);
-    motion.add(weight * grain.mass(), {grain.velocity[0], grain.velocity[1], grain.at[0], grain.at[1]});
-  }
-};
+using RegionSum = WholeGrainSum<4>;
 
 /// Of the motion in the laboratory at the instant of the snapshot.
 RegionSum sum_of(const Box& box, Snapshot snapshot) {

@@ -8,7 +8,7 @@
 #include "coupling/results/plane_invariants.hpp"
 #include "particles/bodies/cell_path.hpp"
 #include "particles/bodies/snapshot.hpp"
-#include "particles/measurement/frame/accumulate.hpp"
+#include "particles/measurement/frame/grain_bins.hpp"
 
 namespace drumlin::particles {
 

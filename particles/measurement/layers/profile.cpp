@@ -148,8 +148,8 @@ void set_stress(const LayerSum& sum, double area, double slope, bool with_contac
   const Fields<2> fields = derive(sum, Background<2>{area, sheared(slope), density});
   f.sigma_xx_kinetic = fields.kinetic[0][0];
   f.sigma_zz_kinetic = fields.kinetic[1][1];
-  // The traction of the upper layer on the lower one is against the flux of x momentum along +z. Here nothing
-  // is taken off: whether a grain is high in its layer and whether it rises are independent.
+  // The traction of the upper layer on the lower one is against the flux of x momentum along +z. The shear
+  // within the layer is not taken off here.
   if (sum.grains > 0) f.sigma_xz_kinetic = -density * sum.motion.covariance(of_v_x, of_v_z);
   f.sigma_rotational = sum.rotation / area;
   if (!with_contacts) return;

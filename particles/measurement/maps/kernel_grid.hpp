@@ -1,5 +1,5 @@
 #pragma once
-// The binning by nodes of a map, with the kernel around each (moments/accumulate.hpp).
+// The binning by nodes of a map, with the kernel around each (frame/accumulate.hpp).
 #include <algorithm>
 #include <array>
 #include <cmath>
