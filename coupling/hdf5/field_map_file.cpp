@@ -134,7 +134,7 @@ FieldMap read_field_map(const std::filesystem::path& file) {
   FieldMap map;
   map.header = header(in, file);
   map.scales = in.scales();
-  const std::vector<double> x = in.doubles("x"), z = in.doubles("z");
+  const std::vector<double> x = in.doubles("x", H5Range::finite), z = in.doubles("z", H5Range::finite);
   std::tie(map.grid.x_first, map.grid.spacing_x) = axis(in, "x", x);
   std::tie(map.grid.z_first, map.grid.spacing_z) = axis(in, "z", z);
   map.grid.columns = x.size();

@@ -9,6 +9,7 @@
 
 #include "coupling/common/errors.hpp"
 #include "coupling/common/files/input_file.hpp"
+#include "coupling/common/no_value.hpp"
 #include "coupling/hdf5/h5_handles.hpp"
 #include "coupling/hdf5/h5_storage.hpp"
 
@@ -131,7 +132,7 @@ void refuse_outside(const H5Reader& reader, const std::string& name, std::int64_
 }
 
 void refuse_outside(const H5Reader& reader, const std::string& name, double value, H5Range range) {
-  constexpr double most = 1e100;
+  constexpr double most = largest_value;
   const double least = range == H5Range::finite ? -most : 1 / most;
   const bool may_be_0 = range != H5Range::above_0;
   if ((value >= least && value <= most) || (may_be_0 && value == 0)) return;

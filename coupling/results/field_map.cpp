@@ -14,8 +14,14 @@ namespace {
 
 constexpr const char* name_letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
 
-bool holds_infinity(const std::vector<double>& values) {
-  return std::any_of(values.begin(), values.end(), [](double value) { return std::isinf(value); });
+/// Of a number with which nothing can be measured; empty: there is none.
+std::string fault_of(const std::string& name, const std::vector<double>& values, std::size_t columns) {
+  const auto bad = std::find_if(values.begin(), values.end(),
+                                [](double value) { return std::abs(value) > largest_value; });
+  if (bad == values.end()) return {};
+  const auto node = static_cast<std::size_t>(bad - values.begin());
+  return fmt::format("{}: is {} in row {}, column {} (allowed: at most {:g} from 0, NaN: not measured)", name,
+                     *bad, node / columns + 1, node % columns + 1, largest_value);
 }
 
 }  // namespace
@@ -58,8 +64,9 @@ std::string fault_of(const FieldMap& map) {
     if (field.value.size() != grid.nodes() || (!field.ci99.empty() && field.ci99.size() != grid.nodes()))
       return fmt::format("{} has another length than the {} x {} nodes of the grid", field.name, grid.rows,
                          grid.columns);
-    if (holds_infinity(field.value) || holds_infinity(field.ci99))
-      return fmt::format("{} holds an infinite number", field.name);
+    for (const auto& [group, values] : {std::pair{"fields/", &field.value}, {"ci99/", &field.ci99}})
+      if (std::string fault = fault_of(group + field.name, *values, grid.columns); !fault.empty())
+        return fault;
   }
   return fault_of(map.header);
 }

@@ -46,7 +46,7 @@ std::vector<double> surface_heights(const MapGrid& grid, const std::vector<doubl
 
 /// What keeps a map from being written or read, in words; empty when nothing does: a grid without nodes or
 /// with a spacing that is not positive, a field without a name or named twice, with another length than the
-/// grid, with an infinite number.
+/// grid, with a number beyond largest_value.
 std::string fault_of(const FieldMap& map);
 
 }  // namespace drumlin

@@ -108,9 +108,10 @@ class ProfileReader {
 
   double number(std::string_view field, std::string_view key) const {
     const auto value = csv_value(field);
-    if (!value)
-      refuse(key, fmt::format("\"{}\" is no number", field),
-             "a finite number, or nothing where it was not computed");
+    if (!value || std::abs(*value) > largest_value)
+      refuse(key, fmt::format("\"{}\" does not do", field),
+             fmt::format("a number of at most {:g} from 0, or nothing where it was not computed",
+                         largest_value));
     return *value;
   }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "coupling/common/errors.hpp"
+#include "coupling/common/no_value.hpp"
 #include "coupling/documents/csv.hpp"
 #include "coupling/documents/number_text.hpp"
 
@@ -68,7 +69,8 @@ std::string read_value(std::string_view text, std::optional<std::string>& value)
 }
 std::string read_value(std::string_view text, std::optional<double>& value) {
   value = parsed_number<double>(text);
-  return value && !std::isinf(*value) ? "" : "a finite number, or nan where it was not measured";
+  if (value && !(std::abs(*value) > largest_value)) return "";
+  return fmt::format("a number of at most {:g} from 0, or nan where it was not measured", largest_value);
 }
 std::string read_value(std::string_view text, std::optional<std::size_t>& value) {
   value = parsed_number<std::size_t>(text);
@@ -145,7 +147,8 @@ std::string fault_of(const RunHeader& header) {
   std::string fault;
   visit_keys(header, [&]<class T>(const char* key, const std::optional<T>& member) {
     if constexpr (std::is_floating_point_v<T>)
-      if (member && std::isinf(*member)) fault = fmt::format("{} of the header is infinite", key);
+      if (member && std::abs(*member) > largest_value)
+        fault = fmt::format("{} of the header is {}", key, *member);
   });
   for (const auto& [key, text] : header.further)
     visit_keys(header, [&, &key = key](const char* name, const auto&) {

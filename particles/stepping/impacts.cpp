@@ -204,6 +204,10 @@ void Impacts::link() {
   }
 }
 
+double Impacts::restitution_of(const Candidate& pair) const {
+  return value_of(in_->step.laws.restitution->e, pair.i, pair.j, in_->step.materials());
+}
+
 void Impacts::schedule(std::int32_t a, double from) {
   const Candidate& pair = in_->pairs[a];
   const PairPath path = path_of(pair);
@@ -211,7 +215,7 @@ void Impacts::schedule(std::int32_t a, double from) {
   const auto time = path.meeting(from, in_->step.time_step);
   if (!time || !strikes(a, path, path.at(*time), *time, false)) return;
   if (met_[a] >= most()) {
-    unresolved_ += met_[a]++ == most_impacts;
+    unresolved_ += met_[a]++ == most_impacts && restitution_of(pair) > 0;  // at 0 nothing of it is lost
     return;
   }
   events_.push_back({*time, a, passes_of(pair)});
@@ -260,7 +264,7 @@ void Impacts::add(std::int32_t a, const Surfaces& now, double time) {
   contact.wall = prescribed_velocity(pair);
   const Point of_i = acceleration_of(pair.i), of_j = second < 0 ? Point{} : acceleration_of(second);
   contact.gain = {time * (of_i.x - of_j.x), time * (of_i.z - of_j.z)};
-  contact.e = value_of(step.laws.restitution->e, pair.i, pair.j, step.materials());
+  contact.e = restitution_of(pair);
   if (step.laws.friction)
     contact.mu = step.friction(pair, [&] {
       const Point v = velocity(pair.i), w = second < 0 ? Point{} : velocity(second);

@@ -67,7 +67,7 @@ class Impacts {
   const ImpactWork& work() const { return work_; }
   /// Pairs that met, counted once per impact.
   int count() const { return count_; }
-  /// Pairs that met more often than is resolved: the contact problem stops them.
+  /// Pairs of a restitution above 0 that met more often than is resolved: the contact problem stops them.
   int unresolved() const { return unresolved_; }
 
  private:
@@ -110,6 +110,7 @@ class Impacts {
   bool is_alone(std::int32_t body) const;
   /// How often a pair may meet within the step.
   int most() const;
+  double restitution_of(const Candidate& pair) const;
   /// When pair a meets next, from a time on.
   void schedule(std::int32_t a, double from);
   void add(std::int32_t a, const Surfaces& now, double time);

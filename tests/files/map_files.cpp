@@ -143,7 +143,7 @@ TEST(MapFile, WhatCouldNotBeReadBackIsNotWritten) {
   refused("nu has another length", [](FieldMap& map) { map.fields[0].ci99.pop_back(); });
   refused("nu appears twice", [](FieldMap& map) { map.fields[1].name = "nu"; });
   refused("\"a/b\"", [](FieldMap& map) { map.fields[0].name = "a/b"; });
-  refused("infinite", [](FieldMap& map) { map.fields[0].value[2] = HUGE_VAL; });
+  refused("fields/nu: is inf in row 1, column 3", [](FieldMap& map) { map.fields[0].value[2] = HUGE_VAL; });
   refused("header", [](FieldMap& map) { map.header.further["a=b"] = "c"; });
 }
 
@@ -180,7 +180,10 @@ TEST(MapFile, ReaderRefusesWhatItDoesNotUnderstand) {
   expect_has(refusal_of({.z = {}}), "empty");
   expect_has(refusal_of({.x = {0, 1}}), "fields/nu");
   expect_has(refusal_of({.columns = 2}), "fields/nu");
-  expect_has(refusal_of({.nu = {1, 2, HUGE_VAL, 4, 5, 6}}), "infinite");
+  expect_has(refusal_of({.x = {0, 1e300, 2e300}}), "x: is 1e+300");
+  expect_has(refusal_of({.nu = {1, 2, HUGE_VAL, 4, 5, 6}}), "fields/nu: is inf in row 1, column 3");
+  expect_has(refusal_of({.nu = {1, 2, 3, 4, -1e300, 6}}),
+             "fields/nu: is -1e+300 in row 2, column 2 (allowed: at most 1e+100 from 0");
 }
 
 TEST(MapFile, EveryCutAndEveryByteChangedIsRefused) {

@@ -82,6 +82,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Refusal{"TooManyFields", "# drumlin-profiles-1\nz,nu\n0,0.8,1\n", ":3"},
                       Refusal{"NoNumber", "# drumlin-profiles-1\nz,nu\n0,high\n", ":3"},
                       Refusal{"Infinity", "# drumlin-profiles-1\nz,nu\n0,inf\n", ":3"},
+                      Refusal{"TooLarge", "# drumlin-profiles-1\nz,nu\n0,1e300\n",
+                              ":3: nu: \"1e300\" does not do (allowed: a number of at most 1e+100 from 0"},
                       Refusal{"DescendingZ", "# drumlin-profiles-1\nz,nu\n0,0.8\n-1,0.8\n", ":4"},
                       Refusal{"EmptyZ", "# drumlin-profiles-1\nz,nu\n,0.8\n", ":3"}),
     [](const auto& test) { return test.param.name; });

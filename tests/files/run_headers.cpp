@@ -90,11 +90,11 @@ TEST_P(DamagedHeader, IsRefusedWithFileLineKeyValueAndWhatIsAllowed) {
                          "\" (allowed: " + GetParam().allowed + ")");
 }
 
-constexpr const char* number = "a finite number, or nan where it was not measured";
+constexpr const char* number = "a number of at most 1e+100 from 0, or nan where it was not measured";
 INSTANTIATE_TEST_SUITE_P(RunHeader, DamagedHeader,
                          ::testing::Values(Damage{"wall_z", "-6o", number}, Damage{"rotation", "", number},
                                            Damage{"interval_factor", "1e999", number},
-                                           Damage{"drum_radius", "inf", number},
+                                           Damage{"drum_radius", "inf", number}, Damage{"H", "1e300", number},
                                            Damage{"axis_depth", "4 d", number},
                                            Damage{"theta_deg", "19,7", number},
                                            Damage{"snapshots", "-1", "a whole number from 0 up"},

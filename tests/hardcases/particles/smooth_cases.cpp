@@ -194,6 +194,14 @@ std::vector<HardCheck> dense_elastic() {
                             "elastic impacts; rounding"));
     checks.push_back(at_most("impacts not resolved" + at, 0, unresolved, "each has its time"));
   }
+  Trial collapse = hexagons(0.12, 2.5 * metre_per_second);
+  collapse.scene.effects.restitution = Restitution{0, 0};
+  collapse.add_stage(50 * millisecond, millisecond);
+  Simulation simulation = collapse.start();
+  int unresolved = 0;
+  while (!simulation.finished()) unresolved += simulation.step().impacts_unresolved;
+  checks.push_back(at_most("impacts not resolved, e = 0, half a diameter a step", 0, unresolved,
+                           "the contact problem takes the same speed"));
   return checks;
 }
 
