@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/output/commands.hpp"
-#include "coupling/documents/key_spec.hpp"
+#include "coupling/core/documents/key_spec.hpp"
 
 namespace CLI {
 class App;
@@ -31,9 +31,9 @@ void add_optional_number(CLI::App& command, const std::string& name, std::option
 /// A path that has to be given; `kind` stands for it in the help.
 void add_folder_or_file(CLI::App& command, const std::string& name, std::filesystem::path& target,
                         const std::string& kind, const std::string& sentence);
-/// A path that may be absent.
 /// The scene that a command reads: a file, or a shipped scene by its name (shipped_scene).
 void add_scene_file(CLI::App& command, std::filesystem::path& target, const std::string& sentence);
+/// A path that may be absent.
 void add_optional_path(CLI::App& command, const std::string& name,
                        std::optional<std::filesystem::path>& target, const std::string& kind,
                        const std::string& sentence);

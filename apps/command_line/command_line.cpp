@@ -11,8 +11,8 @@
 #include "apps/command_line/checked_options.hpp"
 #include "apps/command_line/command_options.hpp"
 #include "apps/command_line/completion.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/provenance.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/basics/provenance.hpp"
 
 namespace drumlin::apps {
 

@@ -9,11 +9,11 @@
 #include <span>
 
 #include "apps/process/standard_streams.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/folder_lock.hpp"
-#include "coupling/common/files/manifest.hpp"
-#include "coupling/common/run_status.hpp"
-#include "coupling/documents/json_document.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/basics/run_status.hpp"
+#include "coupling/core/documents/json_document.hpp"
+#include "coupling/core/files/folder_lock.hpp"
+#include "coupling/core/files/manifest.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -9,11 +9,11 @@
 
 #include "apps/json/json_file.hpp"
 #include "apps/output/paper_data.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/input_file.hpp"
-#include "coupling/documents/json_numbers.hpp"
-#include "coupling/documents/json_shape.hpp"
-#include "coupling/statistics/setting_error.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/json_numbers.hpp"
+#include "coupling/core/documents/json_shape.hpp"
+#include "coupling/core/files/input_file.hpp"
+#include "coupling/core/statistics/setting_error.hpp"
 #include "particles/scene/physics.hpp"
 #include "particles/scene/scene_file.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/results/scalar_set.hpp"
+#include "coupling/core/results/scalar_set.hpp"
 #include "particles/scene/scene.hpp"
 
 namespace drumlin::apps {

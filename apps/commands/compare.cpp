@@ -11,8 +11,8 @@
 #include "apps/output/pending_figures.hpp"
 #include "apps/process/asked.hpp"
 #include "apps/process/standard_streams.hpp"
-#include "coupling/common/errors.hpp"
 #include "coupling/comparison/layers.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::apps {
 

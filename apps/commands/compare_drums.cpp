@@ -9,7 +9,7 @@
 #include "apps/output/paper_data.hpp"
 #include "coupling/comparison/paper_table.hpp"
 #include "coupling/comparison/targets.hpp"
-#include "coupling/documents/json_numbers.hpp"
+#include "coupling/core/documents/json_numbers.hpp"
 
 namespace drumlin::apps {
 

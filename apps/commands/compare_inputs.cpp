@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/json/json_file.hpp"
-#include "coupling/common/errors.hpp"
 #include "coupling/comparison/layers.hpp"
-#include "coupling/hdf5/field_map_file.hpp"
-#include "coupling/results/run_checks.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/hdf5/field_map_file.hpp"
+#include "coupling/core/results/run_checks.hpp"
 #include "particles/io/snapshot_file.hpp"
 
 namespace drumlin::apps {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "coupling/comparison/comparison.hpp"
-#include "coupling/results/measured_run.hpp"
+#include "coupling/core/results/measured_run.hpp"
 
 namespace drumlin::apps {
 

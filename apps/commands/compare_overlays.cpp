@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "coupling/common/files/text_file.hpp"
 #include "coupling/comparison/overlay_profiles.hpp"
-#include "coupling/hdf5/field_map_file.hpp"
+#include "coupling/core/files/text_file.hpp"
+#include "coupling/core/hdf5/field_map_file.hpp"
 
 namespace drumlin::apps {
 

@@ -10,10 +10,10 @@
 #include "apps/output/output_folder.hpp"
 #include "apps/process/asked.hpp"
 #include "apps/process/standard_streams.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/text_file.hpp"
-#include "coupling/hdf5/field_map_file.hpp"
-#include "coupling/results/measured_run.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/text_file.hpp"
+#include "coupling/core/hdf5/field_map_file.hpp"
+#include "coupling/core/results/measured_run.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -1,7 +1,7 @@
 // drumlin flow: starts drumlin-flow, which stands beside this executable, and ends as it ends.
 #include "apps/output/commands.hpp"
 #include "apps/process/interruption.hpp"
-#include "coupling/common/machine/child_process.hpp"
+#include "coupling/core/machine/child_process.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -11,10 +11,10 @@
 
 #include "apps/process/interruption.hpp"
 #include "apps/process/standard_streams.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/last_whole.hpp"
-#include "coupling/common/machine/own_costs.hpp"
-#include "coupling/common/provenance.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/basics/provenance.hpp"
+#include "coupling/core/files/last_whole.hpp"
+#include "coupling/core/machine/own_costs.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/scene/scene_file.hpp"
 

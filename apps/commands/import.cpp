@@ -10,9 +10,9 @@
 #include "apps/process/asked.hpp"
 #include "apps/process/progress.hpp"
 #include "apps/process/standard_streams.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/text_file.hpp"
-#include "coupling/common/run_status.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/basics/run_status.hpp"
+#include "coupling/core/files/text_file.hpp"
 #include "particles/import/import_run.hpp"
 #include "particles/io/snapshot_file.hpp"
 

@@ -7,8 +7,8 @@
 #include "apps/output/commands.hpp"
 #include "apps/output/output_folder.hpp"
 #include "apps/process/standard_streams.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/text_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/text_file.hpp"
 
 namespace drumlin::apps {
 

@@ -12,7 +12,7 @@
 #include "apps/output/output_folder.hpp"
 #include "apps/process/asked.hpp"
 #include "apps/process/standard_streams.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::apps {
 

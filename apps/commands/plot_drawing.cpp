@@ -7,7 +7,7 @@
 
 #include "apps/json/json_file.hpp"
 #include "apps/output/figures.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/bodies/arc.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/io/snapshot_list.hpp"

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "coupling/documents/csv.hpp"
+#include "coupling/core/documents/csv.hpp"
 #include "particles/measurement/flow_rate.hpp"
 
 namespace drumlin::apps {

@@ -7,9 +7,9 @@
 
 #include "apps/output/commands.hpp"
 #include "apps/process/interruption.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/machine/child_process.hpp"
-#include "coupling/common/machine/system_limits.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/machine/child_process.hpp"
+#include "coupling/core/machine/system_limits.hpp"
 
 namespace drumlin::apps {
 namespace {

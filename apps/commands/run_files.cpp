@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/input_file.hpp"
-#include "coupling/common/files/last_whole.hpp"
-#include "coupling/common/files/text_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/input_file.hpp"
+#include "coupling/core/files/last_whole.hpp"
+#include "coupling/core/files/text_file.hpp"
 
 namespace drumlin::apps {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "coupling/common/files/descriptor.hpp"
-#include "coupling/common/files/manifest.hpp"
+#include "coupling/core/files/descriptor.hpp"
+#include "coupling/core/files/manifest.hpp"
 #include "particles/scene/scene.hpp"
 
 namespace drumlin::apps {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "coupling/documents/csv.hpp"
+#include "coupling/core/documents/csv.hpp"
 
 namespace drumlin::apps {
 

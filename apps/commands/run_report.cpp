@@ -9,8 +9,8 @@
 #include "apps/commands/region_table.hpp"
 #include "apps/json/json_file.hpp"
 #include "apps/process/progress.hpp"
-#include "coupling/common/machine/own_costs.hpp"
-#include "coupling/common/provenance.hpp"
+#include "coupling/core/basics/provenance.hpp"
+#include "coupling/core/machine/own_costs.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/run_status.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/basics/run_status.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/scene/scene.hpp"
 

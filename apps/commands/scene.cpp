@@ -12,7 +12,7 @@
 #include "apps/output/commands.hpp"
 #include "apps/process/program_files.hpp"
 #include "apps/process/standard_streams.hpp"
-#include "coupling/documents/document.hpp"
+#include "coupling/core/documents/document.hpp"
 #include "particles/scene/placement.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "particles/stepping/simulation.hpp"

@@ -7,11 +7,11 @@
 #include "apps/json/json_file.hpp"
 #include "apps/output/commands.hpp"
 #include "apps/output/figures.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/text_file.hpp"
 #include "coupling/comparison/map_sampling.hpp"
-#include "coupling/hdf5/field_map_file.hpp"
-#include "coupling/results/plane_invariants.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/text_file.hpp"
+#include "coupling/core/hdf5/field_map_file.hpp"
+#include "coupling/core/results/plane_invariants.hpp"
 
 namespace drumlin::apps {
 

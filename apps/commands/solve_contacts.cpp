@@ -12,7 +12,7 @@
 #include "apps/output/commands.hpp"
 #include "apps/output/output_folder.hpp"
 #include "apps/process/standard_streams.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/lab/backward_error.hpp"
 #include "particles/lab/contact_problem_file.hpp"
 #include "particles/lab/disc_problem.hpp"

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "coupling/common/files/checksum.hpp"
-#include "coupling/documents/json_document.hpp"
+#include "coupling/core/documents/json_document.hpp"
+#include "coupling/core/files/checksum.hpp"
 #include "particles/io/grains_of_run.hpp"
 
 namespace drumlin::apps {

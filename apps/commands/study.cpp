@@ -18,8 +18,8 @@
 #include "apps/process/asked.hpp"
 #include "apps/process/program_files.hpp"
 #include "apps/process/standard_streams.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/documents/document.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/document.hpp"
 
 namespace drumlin::apps {
 

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "particles/stepping/run_through.hpp"
 

@@ -7,7 +7,7 @@
 #include "continuum/fem/runtime.hpp"
 #include "continuum/fem/scene_options.hpp"
 #include "continuum/postprocessing/flow_case.hpp"
-#include "coupling/law/friction_law.hpp"
+#include "coupling/core/law/friction_law.hpp"
 
 using namespace drumlin;
 

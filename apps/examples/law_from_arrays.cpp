@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "coupling/calibration/calibration.hpp"
-#include "coupling/law/rheology_file.hpp"
+#include "coupling/core/law/rheology_file.hpp"
 
 using namespace drumlin;
 

@@ -11,9 +11,9 @@
 #include "apps/process/standard_streams.hpp"
 #include "continuum/fem/runtime.hpp"
 #include "continuum/model/flow_scene.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/machine/first_rank.hpp"
-#include "coupling/common/provenance.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/basics/provenance.hpp"
+#include "coupling/core/machine/first_rank.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
 // OpenMPI and the libraries behind PETSc keep memory until the process ends; the leak check would count it as

@@ -10,10 +10,10 @@
 #include "apps/json/json_file.hpp"
 #include "apps/output/figures.hpp"
 #include "continuum/io/flow_state_file.hpp"
-#include "coupling/common/files/text_file.hpp"
-#include "coupling/common/files/unfinished_file.hpp"
-#include "coupling/common/provenance.hpp"
-#include "coupling/hdf5/field_map_file.hpp"
+#include "coupling/core/basics/provenance.hpp"
+#include "coupling/core/files/text_file.hpp"
+#include "coupling/core/files/unfinished_file.hpp"
+#include "coupling/core/hdf5/field_map_file.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "apps/json/json_file.hpp"
-#include "coupling/documents/json_numbers.hpp"
-#include "coupling/law/ill_posed.hpp"
+#include "coupling/core/documents/json_numbers.hpp"
+#include "coupling/core/law/ill_posed.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -12,12 +12,12 @@
 #include "apps/json/json_file.hpp"
 #include "apps/process/interruption.hpp"
 #include "apps/process/standard_streams.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/last_whole.hpp"
-#include "coupling/common/files/result_folder.hpp"
-#include "coupling/common/files/text_file.hpp"
-#include "coupling/documents/csv.hpp"
-#include "coupling/documents/number_text.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/csv.hpp"
+#include "coupling/core/documents/number_text.hpp"
+#include "coupling/core/files/last_whole.hpp"
+#include "coupling/core/files/result_folder.hpp"
+#include "coupling/core/files/text_file.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -19,14 +19,14 @@
 #include "apps/process/standard_streams.hpp"
 #include "continuum/estimates/flow_limits.hpp"
 #include "continuum/fem/scene_options.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/last_whole.hpp"
-#include "coupling/common/files/text_file.hpp"
-#include "coupling/common/machine/own_costs.hpp"
-#include "coupling/common/provenance.hpp"
-#include "coupling/law/ill_posed.hpp"
-#include "coupling/law/rheology_file.hpp"
-#include "coupling/results/measured_run.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/basics/provenance.hpp"
+#include "coupling/core/files/last_whole.hpp"
+#include "coupling/core/files/text_file.hpp"
+#include "coupling/core/law/ill_posed.hpp"
+#include "coupling/core/law/rheology_file.hpp"
+#include "coupling/core/machine/own_costs.hpp"
+#include "coupling/core/results/measured_run.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/json/json_file.hpp"
-#include "coupling/documents/json_numbers.hpp"
+#include "coupling/core/documents/json_numbers.hpp"
 
 namespace drumlin::apps {
 

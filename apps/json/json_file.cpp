@@ -2,9 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/text_file.hpp"
-#include "coupling/documents/json_numbers.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/json_numbers.hpp"
+#include "coupling/core/files/text_file.hpp"
 
 namespace drumlin::apps {
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "coupling/common/provenance.hpp"
-#include "coupling/common/scales.hpp"
-#include "coupling/documents/json_document.hpp"
-#include "coupling/law/law_curve.hpp"
-#include "coupling/results/scalar_set.hpp"
+#include "coupling/core/basics/provenance.hpp"
+#include "coupling/core/basics/scales.hpp"
+#include "coupling/core/documents/json_document.hpp"
+#include "coupling/core/law/law_curve.hpp"
+#include "coupling/core/results/scalar_set.hpp"
 
 namespace drumlin::apps {
 

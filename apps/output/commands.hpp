@@ -1,6 +1,6 @@
 #pragma once
 // The commands of `drumlin`: what the command line fills in and the function that does it. Each throws the
-// errors of coupling/common/errors.hpp; drumlin.cpp turns them into exit codes.
+// errors of coupling/core/basics/errors.hpp; drumlin.cpp turns them into exit codes.
 #include <array>
 #include <filesystem>
 #include <optional>

@@ -7,8 +7,8 @@
 
 #include "apps/process/interruption.hpp"
 #include "apps/process/program_files.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/machine/child_process.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/machine/child_process.hpp"
 
 namespace drumlin::apps {
 

@@ -7,10 +7,10 @@
 #include <set>
 #include <utility>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/input_file.hpp"
-#include "coupling/common/files/result_folder.hpp"
-#include "coupling/common/files/text_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/input_file.hpp"
+#include "coupling/core/files/result_folder.hpp"
+#include "coupling/core/files/text_file.hpp"
 
 namespace drumlin::apps {
 

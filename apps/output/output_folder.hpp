@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/output/commands.hpp"
-#include "coupling/common/files/folder_lock.hpp"
-#include "coupling/common/files/manifest.hpp"
+#include "coupling/core/files/folder_lock.hpp"
+#include "coupling/core/files/manifest.hpp"
 
 namespace drumlin::apps {
 

@@ -5,8 +5,8 @@
 
 #include "apps/output/figures.hpp"
 #include "apps/output/output_folder.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/text_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/text_file.hpp"
 
 namespace drumlin::apps {
 namespace {

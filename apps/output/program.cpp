@@ -18,9 +18,9 @@
 #include "apps/output/commands.hpp"
 #include "apps/process/interruption.hpp"
 #include "apps/process/standard_streams.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/unfinished_file.hpp"
-#include "coupling/common/machine/system_limits.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/unfinished_file.hpp"
+#include "coupling/core/machine/system_limits.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "apps/process/standard_streams.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/checksum.hpp"
-#include "coupling/common/files/manifest.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/checksum.hpp"
+#include "coupling/core/files/manifest.hpp"
 
 namespace drumlin::apps {
 

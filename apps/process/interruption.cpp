@@ -4,8 +4,8 @@
 
 #include <csignal>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/unfinished_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/unfinished_file.hpp"
 
 namespace drumlin::apps {
 namespace {

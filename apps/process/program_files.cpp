@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "apps/python/bindings.hpp"
 #include "apps/python/others_run.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/lab/any_solver.hpp"
 #include "particles/lab/matrix_problem.hpp"
 #include "particles/lab/solve_contacts.hpp"

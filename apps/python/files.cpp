@@ -3,7 +3,7 @@
 #include <pybind11/pybind11.h>
 
 #include "apps/python/bindings.hpp"
-#include "coupling/hdf5/h5_reader.hpp"
+#include "coupling/core/hdf5/h5_reader.hpp"
 #include "particles/lab/contact_problem_file.hpp"
 
 namespace drumlin::python {

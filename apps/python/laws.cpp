@@ -10,9 +10,9 @@
 #include "apps/python/bindings.hpp"
 #include "apps/python/others_run.hpp"
 #include "coupling/calibration/calibration.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/law/friction_law.hpp"
-#include "coupling/law/rheology_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/law/friction_law.hpp"
+#include "coupling/core/law/rheology_file.hpp"
 
 namespace py = pybind11;
 

@@ -2,8 +2,8 @@
 #include <pybind11/pybind11.h>
 
 #include "apps/python/bindings.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/provenance.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/basics/provenance.hpp"
 
 namespace py = pybind11;
 

@@ -12,7 +12,7 @@
 
 #include "apps/python/bindings.hpp"
 #include "apps/python/others_run.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/grains_of_run.hpp"
 #include "particles/io/snapshot_file.hpp"

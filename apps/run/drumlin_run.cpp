@@ -14,8 +14,8 @@
 #include "apps/output/program.hpp"
 #include "apps/process/interruption.hpp"
 #include "apps/process/standard_streams.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/provenance.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/basics/provenance.hpp"
 #include "particles/distributed/mpi_world.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)

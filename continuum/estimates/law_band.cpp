@@ -6,8 +6,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "coupling/common/no_value.hpp"
-#include "coupling/statistics/quantiles.hpp"
+#include "coupling/core/basics/no_value.hpp"
+#include "coupling/core/statistics/quantiles.hpp"
 
 namespace drumlin::continuum {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "continuum/fem/flow_solver.hpp"
 #include "continuum/postprocessing/flow_case.hpp"
-#include "coupling/results/field_map.hpp"
+#include "coupling/core/results/field_map.hpp"
 
 namespace drumlin::continuum {
 

@@ -73,7 +73,6 @@ void add_point_tangent(const CellShapes& s, unsigned int q, const Response& resp
   }
 }
 
-// The spring and the tractions on one side of a cell.
 // The frame's own velocity at a point, which the unknown lacks.
 Vec2 frame_velocity_at(const FlowProblem& problem, const dealii::Point<2>& x) {
   if (!problem.frame) return {};
@@ -108,6 +107,7 @@ void add_friction_wall(const FrictionWall& wall, const FlowProblem& problem, con
   }
 }
 
+// The spring and the tractions on one side of a cell.
 void add_side(const Discretisation& d, const BoundaryCondition& condition, const FlowProblem& problem,
               const Regularisation& regularisation, const dealii::FEFaceValues<2>& face, const CellShapes& s,
               const dealii::Vector<double>& local, dealii::Vector<double>& residual,

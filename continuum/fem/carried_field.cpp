@@ -10,7 +10,7 @@
 #include <complex>
 
 #include "continuum/fem/detail/direct_solver.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::continuum::fem {
 namespace {

@@ -11,7 +11,7 @@
 #include "continuum/fem/detail/point_law.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
 #include "continuum/fem/detail/spring_faces.hpp"
-#include "coupling/common/no_value.hpp"
+#include "coupling/core/basics/no_value.hpp"
 
 namespace drumlin::continuum {
 namespace {

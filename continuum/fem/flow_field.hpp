@@ -9,8 +9,8 @@
 
 #include "continuum/fem/flow_state.hpp"
 #include "continuum/model/surface_shape.hpp"
-#include "coupling/common/no_value.hpp"
-#include "coupling/common/scales.hpp"
+#include "coupling/core/basics/no_value.hpp"
+#include "coupling/core/basics/scales.hpp"
 
 namespace drumlin::continuum {
 
@@ -36,7 +36,7 @@ struct PointState {
   double viscosity = no_value;
   double memory_xx = no_value, memory_xz = no_value,
          memory_rho = no_value;      ///< A and rho with memory of the axes; NaN without
-  double well_posedness = no_value;  ///< margin (coupling/law/well_posedness.hpp), negative: ill-posed
+  double well_posedness = no_value;  ///< margin (coupling/core/law/well_posedness.hpp), negative: ill-posed
   double fluidity = no_value;        ///< g = 2|D|/mu with a threshold of fluidity, 1/sqrt(d/g); NaN without
 };
 

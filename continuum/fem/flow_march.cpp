@@ -5,7 +5,7 @@
 #include "continuum/fem/detail/kept_state.hpp"
 #include "continuum/fem/detail/newton.hpp"
 #include "continuum/fem/flow_solver.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::continuum {
 namespace {

@@ -8,7 +8,7 @@
 #include "continuum/fem/detail/newton.hpp"
 #include "continuum/fem/detail/picard.hpp"
 #include "continuum/fem/detail/surface_iteration.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::continuum {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "continuum/fem/detail/kept_state.hpp"
 #include "continuum/fem/flow_field.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::continuum {
 namespace fem {

@@ -14,7 +14,7 @@
 #include "continuum/fem/detail/point_law.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
 #include "continuum/fem/flow_field.hpp"
-#include "coupling/common/files/text_file.hpp"
+#include "coupling/core/files/text_file.hpp"
 
 namespace drumlin::continuum {
 namespace {

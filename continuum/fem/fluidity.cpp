@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "continuum/fem/detail/direct_solver.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::continuum::fem {
 namespace {

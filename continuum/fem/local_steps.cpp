@@ -10,7 +10,7 @@
 #include "continuum/fem/detail/cell_shapes.hpp"
 #include "continuum/fem/detail/direct_solver.hpp"
 #include "continuum/fem/detail/step_length.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::continuum::fem {
 namespace {

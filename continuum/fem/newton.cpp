@@ -9,7 +9,7 @@
 
 #include "continuum/fem/detail/local_steps.hpp"
 #include "continuum/fem/detail/step_length.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::continuum::fem {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::continuum::fem {
 namespace {

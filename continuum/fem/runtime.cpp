@@ -2,9 +2,9 @@
 
 #include <deal.II/base/mpi.h>
 
-#include "coupling/common/machine/first_rank.hpp"
-#include "coupling/common/machine/library_words.hpp"
-#include "coupling/common/machine/system_limits.hpp"
+#include "coupling/core/machine/first_rank.hpp"
+#include "coupling/core/machine/library_words.hpp"
+#include "coupling/core/machine/system_limits.hpp"
 
 namespace drumlin::continuum {
 

@@ -10,7 +10,7 @@
 
 #include "continuum/fem/detail/fluidity.hpp"
 #include "continuum/fem/detail/point_law.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::continuum::fem {
 namespace {

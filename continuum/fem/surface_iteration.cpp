@@ -7,7 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::continuum::fem {
 namespace {

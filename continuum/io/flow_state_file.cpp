@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/last_whole.hpp"
-#include "coupling/hdf5/h5_reader.hpp"
-#include "coupling/hdf5/h5_writer.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/last_whole.hpp"
+#include "coupling/core/hdf5/h5_reader.hpp"
+#include "coupling/core/hdf5/h5_writer.hpp"
 
 namespace drumlin::continuum {
 namespace {

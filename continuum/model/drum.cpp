@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "continuum/model/scene_effects.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::continuum {
 

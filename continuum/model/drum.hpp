@@ -3,7 +3,7 @@
 // of it.
 #include "continuum/model/flow_problem.hpp"
 #include "continuum/model/flow_scene.hpp"
-#include "coupling/law/rheology_fit.hpp"
+#include "coupling/core/law/rheology_fit.hpp"
 
 namespace drumlin::continuum {
 

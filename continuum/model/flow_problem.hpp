@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "continuum/rheology/tensor_law.hpp"
-#include "coupling/law/memory_law.hpp"
-#include "coupling/law/stress_ratio.hpp"
+#include "coupling/core/law/memory_law.hpp"
+#include "coupling/core/law/stress_ratio.hpp"
 
 namespace drumlin::continuum {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "coupling/documents/key_table.hpp"
+#include "coupling/core/documents/key_table.hpp"
 
 namespace drumlin::continuum {
 

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "coupling/common/scales.hpp"
-#include "coupling/documents/key_lister.hpp"
+#include "coupling/core/basics/scales.hpp"
+#include "coupling/core/documents/key_lister.hpp"
 
 namespace drumlin::continuum {
 

@@ -6,8 +6,8 @@
 
 #include "continuum/model/flow_problem.hpp"
 #include "continuum/model/flow_scene.hpp"
-#include "coupling/common/geometry.hpp"
-#include "coupling/law/rheology_fit.hpp"
+#include "coupling/core/basics/geometry.hpp"
+#include "coupling/core/law/rheology_fit.hpp"
 
 namespace drumlin::continuum {
 

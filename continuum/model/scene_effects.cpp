@@ -1,7 +1,7 @@
 #include "continuum/model/scene_effects.hpp"
 
 #include "continuum/rheology/nonlocal_law.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::continuum {
 namespace {

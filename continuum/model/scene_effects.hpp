@@ -2,7 +2,7 @@
 // Terms of a flow problem that come from the law and the effects of a scene alone, in any geometry.
 #include "continuum/model/flow_problem.hpp"
 #include "continuum/model/flow_scene.hpp"
-#include "coupling/law/rheology_fit.hpp"
+#include "coupling/core/law/rheology_fit.hpp"
 
 namespace drumlin::continuum {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "continuum/quadrature/integral.hpp"
-#include "coupling/statistics/straight_line.hpp"
+#include "coupling/core/statistics/straight_line.hpp"
 
 namespace drumlin::continuum {
 namespace {

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "continuum/postprocessing/gauss_points.hpp"
-#include "coupling/common/no_value.hpp"
-#include "coupling/results/layer_ratios.hpp"
-#include "coupling/results/profile_scalars.hpp"
+#include "coupling/core/basics/no_value.hpp"
+#include "coupling/core/results/layer_ratios.hpp"
+#include "coupling/core/results/profile_scalars.hpp"
 
 namespace drumlin::continuum {
 namespace {

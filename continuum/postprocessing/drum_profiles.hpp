@@ -3,8 +3,8 @@
 #include "continuum/fem/flow_field.hpp"
 #include "continuum/model/drum.hpp"
 #include "continuum/postprocessing/flow_maps.hpp"
-#include "coupling/results/profile_set.hpp"
-#include "coupling/results/scalar_set.hpp"
+#include "coupling/core/results/profile_set.hpp"
+#include "coupling/core/results/scalar_set.hpp"
 
 namespace drumlin::continuum {
 
@@ -32,7 +32,7 @@ double discharge(const FlowField& field, const DrumGeometry& drum);
 /// the elements do not conserve.
 double flux_imbalance(const FlowField& field, const DrumGeometry& drum, int cuts = 33);
 
-/// theta_deg, Q, H, lambda, shear_rate, I_th; the definitions of coupling/results/profile_scalars.hpp.
+/// theta_deg, Q, H, lambda, shear_rate, I_th; the definitions of coupling/core/results/profile_scalars.hpp.
 ScalarSet drum_scalars(const FlowField& field, const DrumGeometry& drum, const ProfileSet& profiles);
 
 /// Identities of the exact flow, each side computed by itself: Q against mass balance, dissipation against

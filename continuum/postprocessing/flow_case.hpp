@@ -8,9 +8,9 @@
 #include "continuum/model/flow_scene.hpp"
 #include "continuum/postprocessing/flow_maps.hpp"
 #include "continuum/postprocessing/gap_profiles.hpp"
-#include "coupling/law/rheology_fit.hpp"
-#include "coupling/results/profile_set.hpp"
-#include "coupling/results/scalar_set.hpp"
+#include "coupling/core/law/rheology_fit.hpp"
+#include "coupling/core/results/profile_set.hpp"
+#include "coupling/core/results/scalar_set.hpp"
 
 namespace drumlin::continuum {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "coupling/common/no_value.hpp"
-#include "coupling/results/plane_invariants.hpp"
+#include "coupling/core/basics/no_value.hpp"
+#include "coupling/core/results/plane_invariants.hpp"
 
 namespace drumlin::continuum {
 namespace {

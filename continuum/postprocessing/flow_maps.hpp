@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "continuum/fem/flow_field.hpp"
-#include "coupling/results/field_map.hpp"
+#include "coupling/core/results/field_map.hpp"
 
 namespace drumlin::continuum {
 

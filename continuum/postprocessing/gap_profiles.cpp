@@ -7,7 +7,7 @@
 
 #include "continuum/postprocessing/gauss_points.hpp"
 #include "continuum/reference/gap_solution.hpp"
-#include "coupling/results/layer_ratios.hpp"
+#include "coupling/core/results/layer_ratios.hpp"
 
 namespace drumlin::continuum {
 namespace {

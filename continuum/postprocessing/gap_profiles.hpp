@@ -2,8 +2,8 @@
 // A solved flow across a gap as profiles, scalars, checks, and beside its closed form.
 #include "continuum/model/gap.hpp"
 #include "continuum/postprocessing/flow_maps.hpp"
-#include "coupling/results/profile_set.hpp"
-#include "coupling/results/scalar_set.hpp"
+#include "coupling/core/results/profile_set.hpp"
+#include "coupling/core/results/scalar_set.hpp"
 
 namespace drumlin::continuum {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "coupling/law/well_posedness.hpp"
+#include "coupling/core/law/well_posedness.hpp"
 
 namespace drumlin::continuum {
 

@@ -10,7 +10,7 @@
 #include <complex>
 
 #include "continuum/rheology/tensor_law.hpp"
-#include "coupling/law/memory_law.hpp"
+#include "coupling/core/law/memory_law.hpp"
 
 namespace drumlin::continuum {
 

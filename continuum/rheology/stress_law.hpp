@@ -2,8 +2,8 @@
 // Scalar laws F(|D|, p) of the deviatoric stress tau = F D/|D|: those of a rheology file, and a fluid.
 #include <variant>
 
-#include "coupling/law/friction_law.hpp"
-#include "coupling/law/rheology_fit.hpp"
+#include "coupling/core/law/friction_law.hpp"
+#include "coupling/core/law/rheology_fit.hpp"
 
 namespace drumlin::continuum {
 
@@ -30,7 +30,7 @@ using drumlin::strength;  // of one law
 Strength strength(const StressLaw& law, double rate, double pressure);
 
 /// The friction law of a rheology file. What the file says of k is another part of the law
-/// (coupling/law/stress_ratio.hpp).
+/// (coupling/core/law/stress_ratio.hpp).
 StressLaw stress_law(const RheologyFit& fit);
 
 }  // namespace drumlin::continuum

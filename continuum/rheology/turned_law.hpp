@@ -9,7 +9,7 @@
 // is given here, while the dependence of A and B on D and p through I, that of beta too, is differentiated
 // exactly.
 #include "continuum/rheology/tensor_law.hpp"
-#include "coupling/law/turned_strength.hpp"
+#include "coupling/core/law/turned_strength.hpp"
 
 namespace drumlin::continuum {
 

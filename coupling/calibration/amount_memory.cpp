@@ -8,10 +8,10 @@
 #include <numbers>
 
 #include "coupling/calibration/bounded_least_squares.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/law/memory_law.hpp"
-#include "coupling/statistics/quantiles.hpp"
-#include "coupling/statistics/resampling.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/law/memory_law.hpp"
+#include "coupling/core/statistics/quantiles.hpp"
+#include "coupling/core/statistics/resampling.hpp"
 
 namespace drumlin::coupling {
 namespace {

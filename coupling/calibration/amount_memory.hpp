@@ -9,7 +9,7 @@
 
 #include "coupling/calibration/calibrated_law.hpp"
 #include "coupling/calibration/memory_fit.hpp"
-#include "coupling/law/rheology_fit.hpp"
+#include "coupling/core/law/rheology_fit.hpp"
 
 namespace drumlin::coupling {
 

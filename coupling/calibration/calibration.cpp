@@ -7,8 +7,8 @@
 #include <map>
 #include <utility>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/law/rheology_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/law/rheology_file.hpp"
 
 namespace drumlin::coupling {
 namespace {

@@ -9,7 +9,7 @@
 #include "coupling/calibration/nonlocal_fit.hpp"
 #include "coupling/calibration/one_law.hpp"
 #include "coupling/calibration/run_evidence.hpp"
-#include "coupling/law/ill_posed.hpp"
+#include "coupling/core/law/ill_posed.hpp"
 
 namespace drumlin::coupling {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "coupling/statistics/resampling.hpp"
+#include "coupling/core/statistics/resampling.hpp"
 
 namespace drumlin::coupling {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "coupling/calibration/log_friction.hpp"
-#include "coupling/results/profile_set.hpp"
-#include "coupling/results/scalar_set.hpp"
+#include "coupling/core/results/profile_set.hpp"
+#include "coupling/core/results/scalar_set.hpp"
 
 namespace drumlin::coupling {
 

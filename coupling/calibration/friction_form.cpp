@@ -6,8 +6,8 @@
 #include <limits>
 #include <numeric>
 
-#include "coupling/common/enum_names.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/enum_names.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::coupling {
 namespace {

@@ -1,16 +1,16 @@
 #pragma once
 // The forms of a law that a calibration fits, each a few coefficients; how a form is evaluated is the law's
-// own affair (coupling/law): what is fitted and scored is what a flow computes with.
+// own affair (coupling/core/law): what is fitted and scored is what a flow computes with.
 #include <cstddef>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "coupling/law/friction_law.hpp"
-#include "coupling/law/knot_influence.hpp"
-#include "coupling/law/rheology_fit.hpp"
-#include "coupling/law/stress_ratio.hpp"
+#include "coupling/core/law/friction_law.hpp"
+#include "coupling/core/law/knot_influence.hpp"
+#include "coupling/core/law/rheology_fit.hpp"
+#include "coupling/core/law/stress_ratio.hpp"
 
 namespace drumlin::coupling {
 
@@ -31,8 +31,8 @@ struct FrictionForm {
 
 using Coefficients = std::vector<double>;
 
-/// A form with its coefficients, evaluated by the functions of coupling/law: the value over I, its slope, and
-/// how it moves with each coefficient.
+/// A form with its coefficients, evaluated by the functions of coupling/core/law: the value over I, its
+/// slope, and how it moves with each coefficient.
 class FormCurve {
  public:
   FormCurve(const FrictionForm& form, const Coefficients& law);

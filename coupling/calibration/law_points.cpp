@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/statistics/quantiles.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/statistics/quantiles.hpp"
 
 namespace drumlin::coupling {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "coupling/calibration/friction_form.hpp"
 #include "coupling/calibration/log_friction.hpp"
-#include "coupling/results/field_map.hpp"
+#include "coupling/core/results/field_map.hpp"
 
 namespace drumlin::coupling {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "coupling/statistics/quantiles.hpp"
+#include "coupling/core/statistics/quantiles.hpp"
 
 namespace drumlin::coupling {
 LawScore score_of(const std::string& run, const std::vector<FrictionPoint>& points,

@@ -5,9 +5,9 @@
 #include <limits>
 #include <string>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/statistics/quantiles.hpp"
-#include "coupling/statistics/straight_line.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/statistics/quantiles.hpp"
+#include "coupling/core/statistics/straight_line.hpp"
 
 namespace drumlin::coupling {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "coupling/law/rheology_fit.hpp"
-#include "coupling/results/profile_set.hpp"
+#include "coupling/core/law/rheology_fit.hpp"
+#include "coupling/core/results/profile_set.hpp"
 
 namespace drumlin::coupling {
 

@@ -8,9 +8,9 @@
 #include <set>
 #include <variant>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/statistics/quantiles.hpp"
-#include "coupling/statistics/resampling.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/statistics/quantiles.hpp"
+#include "coupling/core/statistics/resampling.hpp"
 
 namespace drumlin::coupling {
 namespace {

@@ -7,11 +7,11 @@
 #include <numbers>
 #include <utility>
 
-#include "coupling/common/no_value.hpp"
-#include "coupling/law/memory_law.hpp"
-#include "coupling/statistics/quantiles.hpp"
-#include "coupling/statistics/resampling.hpp"
-#include "coupling/statistics/samples.hpp"
+#include "coupling/core/basics/no_value.hpp"
+#include "coupling/core/law/memory_law.hpp"
+#include "coupling/core/statistics/quantiles.hpp"
+#include "coupling/core/statistics/resampling.hpp"
+#include "coupling/core/statistics/samples.hpp"
 
 namespace drumlin::coupling {
 namespace {

@@ -10,9 +10,9 @@
 #include <set>
 
 #include "coupling/calibration/memory_fit.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/statistics/quantiles.hpp"
-#include "coupling/statistics/resampling.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/statistics/quantiles.hpp"
+#include "coupling/core/statistics/resampling.hpp"
 
 namespace drumlin::coupling {
 namespace {

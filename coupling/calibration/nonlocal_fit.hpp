@@ -9,7 +9,7 @@
 
 #include "coupling/calibration/friction_form.hpp"
 #include "coupling/calibration/path_fields.hpp"
-#include "coupling/law/rheology_fit.hpp"
+#include "coupling/core/law/rheology_fit.hpp"
 
 namespace drumlin::coupling {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::coupling {
 

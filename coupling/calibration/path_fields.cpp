@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::coupling {
 namespace {

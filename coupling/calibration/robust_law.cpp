@@ -7,9 +7,9 @@
 #include <string>
 
 #include "coupling/calibration/bounded_least_squares.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/statistics/quantiles.hpp"
-#include "coupling/statistics/resampling.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/statistics/quantiles.hpp"
+#include "coupling/core/statistics/resampling.hpp"
 
 namespace drumlin::coupling {
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "coupling/calibration/law_points.hpp"
-#include "coupling/results/field_map.hpp"
-#include "coupling/results/profile_set.hpp"
-#include "coupling/results/scalar_set.hpp"
+#include "coupling/core/results/field_map.hpp"
+#include "coupling/core/results/profile_set.hpp"
+#include "coupling/core/results/scalar_set.hpp"
 
 namespace drumlin::coupling {
 

@@ -4,8 +4,8 @@
 #include <map>
 #include <numbers>
 
-#include "coupling/common/no_value.hpp"
-#include "coupling/results/plane_invariants.hpp"
+#include "coupling/core/basics/no_value.hpp"
+#include "coupling/core/results/plane_invariants.hpp"
 
 namespace drumlin::coupling {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "coupling/results/field_map.hpp"
-#include "coupling/results/profile_set.hpp"
+#include "coupling/core/results/field_map.hpp"
+#include "coupling/core/results/profile_set.hpp"
 
 namespace drumlin::coupling {
 
@@ -31,7 +31,7 @@ struct FieldValues {
 FieldValues profile_field(const std::string& name, const ProfileSet& profiles);
 
 /// The same of a map, with its invariants: the shear rate is strain_rate, I, mu and p are those of
-/// coupling/results/plane_invariants.hpp.
+/// coupling/core/results/plane_invariants.hpp.
 FieldValues map_field(const std::string& name, const FieldMap& map);
 
 }  // namespace drumlin::coupling

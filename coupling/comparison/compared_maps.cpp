@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include "coupling/common/no_value.hpp"
 #include "coupling/comparison/map_sampling.hpp"
 #include "coupling/comparison/parts.hpp"
+#include "coupling/core/basics/no_value.hpp"
 
 namespace drumlin::coupling {
 

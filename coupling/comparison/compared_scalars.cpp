@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "coupling/common/no_value.hpp"
-#include "coupling/results/profile_scalars.hpp"
+#include "coupling/core/basics/no_value.hpp"
+#include "coupling/core/results/profile_scalars.hpp"
 
 namespace drumlin::coupling {
 

@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "coupling/common/no_value.hpp"
 #include "coupling/comparison/map_sampling.hpp"
 #include "coupling/comparison/parts.hpp"
-#include "coupling/results/profile_scalars.hpp"
+#include "coupling/core/basics/no_value.hpp"
+#include "coupling/core/results/profile_scalars.hpp"
 
 namespace drumlin::coupling {
 

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/no_value.hpp"
 #include "coupling/comparison/compared_scalars.hpp"
 #include "coupling/comparison/map_sampling.hpp"
 #include "coupling/comparison/targets.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/basics/no_value.hpp"
 
 namespace drumlin::coupling {
 

@@ -7,8 +7,8 @@
 
 #include "coupling/comparison/field_errors.hpp"
 #include "coupling/comparison/parts.hpp"
-#include "coupling/results/profile_set.hpp"
-#include "coupling/results/scalar_set.hpp"
+#include "coupling/core/results/profile_set.hpp"
+#include "coupling/core/results/scalar_set.hpp"
 
 namespace drumlin::coupling {
 

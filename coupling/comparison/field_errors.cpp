@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "coupling/common/no_value.hpp"
 #include "coupling/comparison/registration.hpp"
-#include "coupling/results/plane_invariants.hpp"
+#include "coupling/core/basics/no_value.hpp"
+#include "coupling/core/results/plane_invariants.hpp"
 
 namespace drumlin::coupling {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "coupling/comparison/compared_fields.hpp"
-#include "coupling/results/profile_set.hpp"
+#include "coupling/core/results/profile_set.hpp"
 
 namespace drumlin::coupling {
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/no_value.hpp"
 #include "coupling/comparison/compared_scalars.hpp"
 #include "coupling/comparison/overlay_profiles.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/basics/no_value.hpp"
 
 namespace drumlin::coupling {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "coupling/common/no_value.hpp"
+#include "coupling/core/basics/no_value.hpp"
 
 namespace drumlin::coupling {
 

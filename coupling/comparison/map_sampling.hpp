@@ -2,8 +2,8 @@
 // Values of maps between their nodes, and profiles through them.
 #include <vector>
 
-#include "coupling/results/field_map.hpp"
-#include "coupling/results/profile_set.hpp"
+#include "coupling/core/results/field_map.hpp"
+#include "coupling/core/results/profile_set.hpp"
 
 namespace drumlin::coupling {
 

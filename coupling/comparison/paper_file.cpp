@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::coupling {
 

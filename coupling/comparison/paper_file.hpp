@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "coupling/documents/document.hpp"
+#include "coupling/core/documents/document.hpp"
 
 namespace drumlin::coupling {
 

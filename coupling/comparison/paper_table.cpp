@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "coupling/common/no_value.hpp"
 #include "coupling/comparison/paper_file.hpp"
+#include "coupling/core/basics/no_value.hpp"
 
 namespace drumlin::coupling {
 

@@ -1,8 +1,8 @@
 #pragma once
 // Registration: which places of two runs are the same place of the drum
 // (docs/decisions.md).
-#include "coupling/results/field_map.hpp"
-#include "coupling/results/profile_set.hpp"
+#include "coupling/core/results/field_map.hpp"
+#include "coupling/core/results/profile_set.hpp"
 
 namespace drumlin::coupling {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/common/no_value.hpp"
+#include "coupling/core/basics/no_value.hpp"
 
 namespace drumlin::coupling {
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "coupling/common/machine/library_words.hpp"
-#include "coupling/common/machine/system_limits.hpp"
+#include "coupling/core/machine/library_words.hpp"
+#include "coupling/core/machine/system_limits.hpp"
 
 namespace drumlin::particles {
 namespace {

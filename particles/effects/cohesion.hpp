@@ -3,7 +3,7 @@
 // before they part, and Coulomb's bound counts it as load. A force before the solve; no unknown of its own.
 #include <numbers>
 
-#include "coupling/documents/key_spec.hpp"
+#include "coupling/core/documents/key_spec.hpp"
 #include "particles/detection/candidate.hpp"
 #include "particles/effects/law_input.hpp"
 #include "particles/effects/pair_law.hpp"

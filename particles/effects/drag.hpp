@@ -3,7 +3,7 @@
 // and a couple against the spin, each proportional to it. Exact in free motion, for any time step.
 #include <optional>
 
-#include "coupling/documents/key_spec.hpp"
+#include "coupling/core/documents/key_spec.hpp"
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/free_motion.hpp"
 #include "particles/effects/law_input.hpp"

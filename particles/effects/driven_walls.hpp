@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "coupling/common/scales.hpp"
-#include "coupling/documents/key_spec.hpp"
+#include "coupling/core/basics/scales.hpp"
+#include "coupling/core/documents/key_spec.hpp"
 #include "particles/bodies/free_motion.hpp"
 #include "particles/bodies/walls.hpp"
 #include "particles/detection/candidate.hpp"

@@ -4,7 +4,7 @@
 // time step.
 #include <cmath>
 
-#include "coupling/documents/key_spec.hpp"
+#include "coupling/core/documents/key_spec.hpp"
 #include "particles/detection/candidate.hpp"
 #include "particles/effects/law_input.hpp"
 #include "particles/effects/pair_law.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 // Coulomb friction: a tangential impulse |r_t| <= mu r_n that opposes sliding. One unknown more per contact.
-#include "coupling/documents/key_spec.hpp"
+#include "coupling/core/documents/key_spec.hpp"
 #include "particles/detection/candidate.hpp"
 #include "particles/effects/law_input.hpp"
 #include "particles/effects/pair_law.hpp"

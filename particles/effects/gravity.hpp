@@ -1,6 +1,6 @@
 #pragma once
 // Uniform gravity: one acceleration of all grains, explicit in time. Sets the unit of time, sqrt(d/g).
-#include "coupling/documents/key_spec.hpp"
+#include "coupling/core/documents/key_spec.hpp"
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/free_motion.hpp"
 #include "particles/bodies/walls.hpp"

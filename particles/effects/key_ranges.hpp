@@ -2,7 +2,7 @@
 // Positions and lengths in the keys of a scene, and their ranges.
 #include <array>
 
-#include "coupling/documents/key_spec.hpp"
+#include "coupling/core/documents/key_spec.hpp"
 
 namespace drumlin::particles {
 

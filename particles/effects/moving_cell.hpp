@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "coupling/common/scales.hpp"
-#include "coupling/documents/key_spec.hpp"
+#include "coupling/core/basics/scales.hpp"
+#include "coupling/core/documents/key_spec.hpp"
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/period.hpp"
 

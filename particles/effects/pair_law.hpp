@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/documents/key_spec.hpp"
+#include "coupling/core/documents/key_spec.hpp"
 
 namespace drumlin::particles {
 

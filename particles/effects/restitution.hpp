@@ -1,7 +1,7 @@
 #pragma once
 // Newton restitution: a pair parts with a share e of the normal speed at which it approached. Impacts are
 // resolved before the contact problem of a step (stepping/impacts.hpp); no unknown of its own.
-#include "coupling/documents/key_spec.hpp"
+#include "coupling/core/documents/key_spec.hpp"
 #include "particles/effects/law_input.hpp"
 #include "particles/effects/pair_law.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Rolling resistance: a couple of at most mu_r R_eff r_n that opposes rolling. One unknown more per contact;
 // needs spin.
-#include "coupling/documents/key_spec.hpp"
+#include "coupling/core/documents/key_spec.hpp"
 #include "particles/bodies/bodies.hpp"
 #include "particles/detection/candidate.hpp"
 #include "particles/effects/law_input.hpp"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "coupling/common/scales.hpp"
-#include "coupling/documents/key_spec.hpp"
+#include "coupling/core/basics/scales.hpp"
+#include "coupling/core/documents/key_spec.hpp"
 #include "particles/bodies/walls.hpp"
 #include "particles/effects/driven_walls.hpp"
 

@@ -3,7 +3,7 @@
 // that is tilted until it slides). What a stage reaches stays until another one changes it.
 #include <optional>
 
-#include "coupling/documents/key_spec.hpp"
+#include "coupling/core/documents/key_spec.hpp"
 #include "particles/effects/gravity.hpp"
 
 namespace drumlin::particles {

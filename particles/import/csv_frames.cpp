@@ -8,8 +8,8 @@
 #include <memory>
 #include <utility>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/documents/csv.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/csv.hpp"
 #include "particles/import/line_reader.hpp"
 
 namespace drumlin::particles {

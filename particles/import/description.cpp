@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/input_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/input_file.hpp"
 #include "particles/import/description_keys.hpp"
 
 namespace drumlin::particles {

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "coupling/documents/key_lister.hpp"
+#include "coupling/core/documents/key_lister.hpp"
 #include "particles/scene/scene.hpp"
 
 namespace drumlin::particles {

@@ -1,6 +1,6 @@
 #pragma once
-// Keys of a description of foreign snapshots, each described once (coupling/documents/key_table.hpp).
-#include "coupling/documents/key_table.hpp"
+// Keys of a description of foreign snapshots, each described once (coupling/core/documents/key_table.hpp).
+#include "coupling/core/documents/key_table.hpp"
 #include "particles/import/description.hpp"
 #include "particles/scene/scene_keys.hpp"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/documents/csv.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/csv.hpp"
 
 namespace drumlin::particles {
 

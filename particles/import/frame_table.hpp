@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/common/scales.hpp"
+#include "coupling/core/basics/scales.hpp"
 
 namespace drumlin::particles {
 

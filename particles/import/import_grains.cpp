@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::particles {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/import/csv_frames.hpp"
 #include "particles/import/import_contacts.hpp"
 #include "particles/import/import_grains.hpp"

@@ -10,7 +10,7 @@
 #include <memory>
 #include <utility>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/import/line_reader.hpp"
 
 namespace drumlin::particles {

@@ -4,8 +4,8 @@
 #include <limits>
 #include <span>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/documents/csv.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/csv.hpp"
 
 namespace drumlin::particles {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "coupling/common/files/input_file.hpp"
+#include "coupling/core/files/input_file.hpp"
 
 namespace drumlin::particles {
 

@@ -3,10 +3,10 @@
 #include <limits>
 #include <string_view>
 
-#include "coupling/common/files/last_whole.hpp"
-#include "coupling/common/files/text_file.hpp"
-#include "coupling/hdf5/h5_reader.hpp"
-#include "coupling/hdf5/h5_writer.hpp"
+#include "coupling/core/files/last_whole.hpp"
+#include "coupling/core/files/text_file.hpp"
+#include "coupling/core/hdf5/h5_reader.hpp"
+#include "coupling/core/hdf5/h5_writer.hpp"
 #include "particles/io/checkpoint_stages.hpp"
 #include "particles/io/checkpoint_traffic.hpp"
 

@@ -67,7 +67,7 @@ void put_stage_changes(const Checkpoint& checkpoint, H5Content& out) {
     each_number(load, [&rows](double number) { rows.push_back(number); });
   out.add("loads/walls", rows,
           {"rho0 d^2 sqrt(g d), rho0 d^3 sqrt(g d), sqrt(d/g), d, rad",
-           "impulse, moment, time and places of each wall (WallLoad)"});
+           "impulse, moment, time and places of each wall"});
 }
 
 void get_stage_changes(const H5Reader& in, Checkpoint& checkpoint) {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "coupling/hdf5/h5_reader.hpp"
-#include "coupling/hdf5/h5_writer.hpp"
+#include "coupling/core/hdf5/h5_reader.hpp"
+#include "coupling/core/hdf5/h5_writer.hpp"
 #include "particles/io/checkpoint_file.hpp"
 
 namespace drumlin::particles {

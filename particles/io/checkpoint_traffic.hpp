@@ -1,8 +1,8 @@
 #pragma once
 // The part of a checkpoint that only scenes have whose number of grains can change, or that grains have
 // left.
-#include "coupling/hdf5/h5_reader.hpp"
-#include "coupling/hdf5/h5_writer.hpp"
+#include "coupling/core/hdf5/h5_reader.hpp"
+#include "coupling/core/hdf5/h5_writer.hpp"
 #include "particles/io/checkpoint_file.hpp"
 
 namespace drumlin::particles {

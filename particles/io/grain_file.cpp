@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "coupling/hdf5/h5_writer.hpp"
+#include "coupling/core/hdf5/h5_writer.hpp"
 
 namespace drumlin::particles {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "coupling/common/scales.hpp"
+#include "coupling/core/basics/scales.hpp"
 #include "particles/measurement/grains/grain_fields.hpp"
 
 namespace drumlin::particles {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/scene/materials.hpp"
 #include "particles/scene/placement.hpp"
 

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/input_file.hpp"
-#include "coupling/documents/json_document.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/json_document.hpp"
+#include "coupling/core/files/input_file.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/io/snapshot_list.hpp"
 #include "particles/scene/scene_file.hpp"

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "coupling/common/files/result_folder.hpp"
-#include "coupling/common/run_status.hpp"
-#include "coupling/common/scales.hpp"
+#include "coupling/core/basics/run_status.hpp"
+#include "coupling/core/basics/scales.hpp"
+#include "coupling/core/files/result_folder.hpp"
 #include "particles/bodies/snapshot.hpp"
 #include "particles/bodies/walls.hpp"
 #include "particles/scene/scene.hpp"

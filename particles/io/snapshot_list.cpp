@@ -8,8 +8,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/documents/number_text.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/number_text.hpp"
 
 namespace drumlin::particles {
 

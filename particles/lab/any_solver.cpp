@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/lab/scalar_sweeps.hpp"
 #include "particles/solver/momentum.hpp"
 #include "particles/solver/two_methods.hpp"

@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/hdf5/h5_reader.hpp"
-#include "coupling/hdf5/h5_writer.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/hdf5/h5_reader.hpp"
+#include "coupling/core/hdf5/h5_writer.hpp"
 #include "particles/lab/matrix_problem.hpp"
 
 namespace drumlin::particles {

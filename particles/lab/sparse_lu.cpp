@@ -8,8 +8,8 @@
 #include <cmath>
 #include <new>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/machine/system_limits.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/machine/system_limits.hpp"
 
 #define DRUMLIN_TEXT_OF(number) #number
 #define DRUMLIN_VERSIONED(name, number) name "." DRUMLIN_TEXT_OF(number)

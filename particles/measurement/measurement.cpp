@@ -6,7 +6,7 @@
 #include <memory>
 #include <numbers>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/grains/cell_sums.hpp"
 #include "particles/measurement/layers/scalars.hpp"

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "coupling/results/profile_scalars.hpp"
-#include "coupling/results/profile_set.hpp"
-#include "coupling/results/scalar_set.hpp"
+#include "coupling/core/results/profile_scalars.hpp"
+#include "coupling/core/results/profile_set.hpp"
+#include "coupling/core/results/scalar_set.hpp"
 #include "particles/measurement/frame/flow_snapshot.hpp"
 #include "particles/measurement/frame/measurement_frame.hpp"
 #include "particles/measurement/layers/sensitivity.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "coupling/common/provenance.hpp"
+#include "coupling/core/basics/provenance.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 
 namespace drumlin::particles {

@@ -1,6 +1,6 @@
 #pragma once
 // Header of the files that a measurement leaves.
-#include "coupling/results/run_header.hpp"
+#include "coupling/core/results/run_header.hpp"
 #include "particles/measurement/measurement.hpp"
 
 namespace drumlin::particles {

@@ -12,10 +12,10 @@
 #include <string_view>
 #include <vector>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/input_file.hpp"
-#include "coupling/common/no_value.hpp"
-#include "coupling/documents/csv.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/basics/no_value.hpp"
+#include "coupling/core/documents/csv.hpp"
+#include "coupling/core/files/input_file.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 
 namespace drumlin::particles {

@@ -2,7 +2,7 @@
 // Accuracy of a run by its own log (log.csv), averaged over the stages that were measured.
 #include <filesystem>
 
-#include "coupling/results/scalar_set.hpp"
+#include "coupling/core/results/scalar_set.hpp"
 
 namespace drumlin::particles {
 

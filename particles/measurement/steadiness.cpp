@@ -7,7 +7,7 @@
 #include <numbers>
 #include <span>
 
-#include "coupling/statistics/straight_line.hpp"
+#include "coupling/core/statistics/straight_line.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 
 namespace drumlin::particles {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/scene/placed_discs.hpp"
 #include "particles/scene/random.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/common/enum_names.hpp"
+#include "coupling/core/basics/enum_names.hpp"
 #include "particles/scene/scene.hpp"
 
 namespace drumlin::particles {

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "coupling/common/enum_names.hpp"
+#include "coupling/core/basics/enum_names.hpp"
 #include "particles/effects/key_ranges.hpp"
 
 namespace drumlin::particles {

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <utility>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/input_file.hpp"
-#include "coupling/documents/csv.hpp"
-#include "coupling/documents/key_spec.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/csv.hpp"
+#include "coupling/core/documents/key_spec.hpp"
+#include "coupling/core/files/input_file.hpp"
 
 namespace drumlin::particles {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/scene/deposited_placement.hpp"
 #include "particles/scene/grain_list.hpp"
 #include "particles/scene/materials.hpp"

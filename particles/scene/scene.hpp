@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "coupling/common/scales.hpp"
+#include "coupling/core/basics/scales.hpp"
 #include "particles/effects/driven_walls.hpp"
 #include "particles/effects/effects.hpp"
 #include "particles/scene/generated_grains.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/documents/key_lister.hpp"
+#include "coupling/core/documents/key_lister.hpp"
 #include "particles/scene/scene.hpp"
 
 namespace drumlin::particles {

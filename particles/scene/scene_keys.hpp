@@ -1,8 +1,8 @@
 #pragma once
 // The keys of a scene file, each described once: docs/formats/scene.md, reading, writing and `drumlin scene
-// keys` follow from this (coupling/documents/key_table.hpp). The keys of an effect stand beside its law, in
-// particles/effects.
-#include "coupling/documents/key_table.hpp"
+// keys` follow from this (coupling/core/documents/key_table.hpp). The keys of an effect stand beside its law,
+// in particles/effects.
+#include "coupling/core/documents/key_table.hpp"
 #include "particles/scene/scene.hpp"
 #include "particles/scene/stage_keys.hpp"
 #include "particles/scene/traffic_keys.hpp"

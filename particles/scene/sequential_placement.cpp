@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/scene/placed_discs.hpp"
 #include "particles/scene/random.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 // The keys of a stage, each described once (scene_keys.hpp).
-#include "coupling/documents/key_table.hpp"
+#include "coupling/core/documents/key_table.hpp"
 #include "particles/scene/stage.hpp"
 
 namespace drumlin::particles {

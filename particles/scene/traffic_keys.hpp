@@ -1,6 +1,6 @@
 #pragma once
 // The keys of outlets and sources, each described once (scene_keys.hpp).
-#include "coupling/documents/key_table.hpp"
+#include "coupling/core/documents/key_table.hpp"
 #include "particles/effects/key_ranges.hpp"
 #include "particles/scene/traffic.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/solver/pivoting.hpp"
 #include "particles/solver/strip_sweeps.hpp"
 #include "particles/solver/two_methods.hpp"

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <limits>
 
-#include "coupling/common/enum_names.hpp"
+#include "coupling/core/basics/enum_names.hpp"
 #include "particles/contact/residual.hpp"
 
 namespace drumlin::particles {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/scene/longest_step.hpp"
 #include "particles/stepping/simulation.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/scene/validate.hpp"
 #include "particles/stepping/time_plan.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::particles {
 namespace {

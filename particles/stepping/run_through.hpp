@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "coupling/common/run_status.hpp"
+#include "coupling/core/basics/run_status.hpp"
 #include "particles/stepping/simulation.hpp"
 
 namespace drumlin::particles {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/scene/longest_step.hpp"
 #include "particles/scene/materials.hpp"
 #include "particles/scene/placement.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/stepping/lost_grain.hpp"
 #include "particles/stepping/simulation.hpp"
 

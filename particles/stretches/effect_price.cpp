@@ -2,7 +2,7 @@
 
 #include <malloc.h>
 
-#include "coupling/common/machine/own_costs.hpp"
+#include "coupling/core/machine/own_costs.hpp"
 #include "particles/stepping/simulation.hpp"
 
 namespace drumlin::particles {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/machine/own_costs.hpp"
-#include "coupling/common/no_value.hpp"
-#include "coupling/statistics/quantiles.hpp"
-#include "coupling/statistics/resampling.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/basics/no_value.hpp"
+#include "coupling/core/machine/own_costs.hpp"
+#include "coupling/core/statistics/quantiles.hpp"
+#include "coupling/core/statistics/resampling.hpp"
 #include "particles/stretches/stretch.hpp"
 
 namespace drumlin::particles {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/machine/own_costs.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/machine/own_costs.hpp"
 
 namespace drumlin::particles {
 

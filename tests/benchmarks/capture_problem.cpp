@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "apps/output/program.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/documents/number_text.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/number_text.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/lab/block_problem.hpp"
 #include "particles/lab/contact_problem_file.hpp"

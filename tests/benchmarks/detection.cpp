@@ -12,8 +12,8 @@
 #include <numeric>
 
 #include "apps/json/json_file.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/machine/own_costs.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/machine/own_costs.hpp"
 #include "particles/detection/contact_list.hpp"
 #include "tests/particles/many_grains.hpp"
 

@@ -11,9 +11,9 @@
 
 #include "apps/json/json_file.hpp"
 #include "apps/output/program.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/machine/own_costs.hpp"
-#include "coupling/documents/number_text.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/number_text.hpp"
+#include "coupling/core/machine/own_costs.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "tests/benchmarks/flow_from_snapshot.hpp"

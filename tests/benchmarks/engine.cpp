@@ -14,8 +14,8 @@
 #include <thread>
 
 #include "apps/json/json_file.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/machine/own_costs.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/machine/own_costs.hpp"
 #include "particles/lab/any_solver.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "tests/benchmarks/flow_steps.hpp"

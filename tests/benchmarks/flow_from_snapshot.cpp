@@ -1,6 +1,6 @@
 #include "tests/benchmarks/flow_from_snapshot.hpp"
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::benchmark {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <optional>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/lab/any_solver.hpp"
 #include "particles/scene/scene_file.hpp"

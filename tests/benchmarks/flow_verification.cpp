@@ -16,7 +16,7 @@
 #include "continuum/postprocessing/drum_profiles.hpp"
 #include "continuum/postprocessing/gap_profiles.hpp"
 #include "continuum/reference/closed_forms.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "tests/continuum/gap_flows.hpp"
 #include "tests/continuum/manufactured_flow.hpp"
 #include "tests/continuum/tangent_error.hpp"

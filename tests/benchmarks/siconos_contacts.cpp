@@ -18,9 +18,9 @@
 #include <optional>
 
 #include "apps/json/json_file.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/machine/own_costs.hpp"
-#include "coupling/documents/number_text.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/number_text.hpp"
+#include "coupling/core/machine/own_costs.hpp"
 #include "particles/contact/residual.hpp"
 #include "particles/lab/contact_problem_file.hpp"
 

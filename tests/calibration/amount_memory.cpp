@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/law/memory_law.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/law/memory_law.hpp"
 #include "remembering_drum.hpp"
 
 namespace drumlin::amount_memory {

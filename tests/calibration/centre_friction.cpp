@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "coupling/law/law_curve.hpp"
+#include "coupling/core/law/law_curve.hpp"
 
 namespace drumlin {
 using namespace coupling;

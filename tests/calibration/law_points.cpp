@@ -7,8 +7,8 @@
 
 #include "coupling/calibration/law_score.hpp"
 #include "coupling/calibration/one_law.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/statistics/quantiles.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/statistics/quantiles.hpp"
 #include "shear_layer.hpp"
 
 namespace drumlin {

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "coupling/calibration/run_evidence.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin {
 using namespace coupling;

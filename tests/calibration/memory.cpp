@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "coupling/calibration/memory_calibration.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/law/memory_law.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/law/memory_law.hpp"
 #include "remembering_drum.hpp"
 
 namespace drumlin {

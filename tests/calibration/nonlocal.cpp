@@ -5,7 +5,7 @@
 
 #include "coupling/calibration/memory_fit.hpp"
 #include "coupling/calibration/nonlocal_fit.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "tests/calibration/remembering_drum.hpp"
 #include "tests/support/says.hpp"
 

@@ -8,8 +8,8 @@
 #include "continuum/rheology/stress_law.hpp"
 #include "continuum/rheology/turned_law.hpp"
 #include "coupling/calibration/calibration.hpp"
-#include "coupling/law/rheology_file.hpp"
-#include "coupling/results/plane_invariants.hpp"
+#include "coupling/core/law/rheology_file.hpp"
+#include "coupling/core/results/plane_invariants.hpp"
 #include "shear_layer.hpp"
 #include "tests/files/folder.hpp"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/law/rheology_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/law/rheology_file.hpp"
 #include "tests/files/folder.hpp"
 
 namespace drumlin {

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "coupling/calibration/calibrated_law.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/law/ill_posed.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/law/ill_posed.hpp"
 
 namespace drumlin::robust_law {
 using namespace coupling;

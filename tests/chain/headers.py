@@ -1,8 +1,8 @@
-"""Headers compile; includes and folders are those that docs/architecture.md states.
+"""Headers compile; includes and folders are those that docs/architecture.md states; sentences for users hold no name of the code.
 
 All headers are compiled in one unit, and in another in the opposite order. With --each they are compiled one by one as well, each in a unit of its own: minutes of processor time.
 
-The page is the rule: its table "Rooms" has a row for each folder with code, and names the folders that its files may
+The page is the rule: its table "Modules" has a row for each folder with code, and names the folders that its files may
 include. This test fails on a folder without a row, a row without a folder, an include that the row does not allow,
 and a circle of folders.
 
@@ -18,20 +18,23 @@ import sys
 
 TOPS = ("particles", "continuum", "coupling", "apps")
 # Third-party headers that a public header may show to those who include it.
-PUBLIC_LIBRARIES = {"particles": ["Eigen/"], "apps": ["nlohmann/"], "coupling/documents": ["nlohmann/json_fwd.hpp"]}
+PUBLIC_LIBRARIES = {"particles": ["Eigen/"], "apps": ["nlohmann/"], "coupling/core/documents": ["nlohmann/json_fwd.hpp"]}
 # Headers that only these folders may include, in any file.
 PRIVATE_LIBRARIES = {
     "deal.II/": ["continuum/fem", "particles/distributed"],
     "petsc": ["continuum/fem"],
-    "hdf5": ["coupling/hdf5"],
-    "toml++/": ["coupling/documents/document.cpp"],
+    "hdf5": ["coupling/core/hdf5"],
+    "toml++/": ["coupling/core/documents/document.cpp"],
     "CLI/": ["apps/command_line"],
-    "boost/": ["coupling/statistics"],
-    "openssl/": ["coupling/common/files/checksum.cpp"],
+    "boost/": ["coupling/core/statistics"],
+    "openssl/": ["coupling/core/files/checksum.cpp"],
 }
 # Private to the finite elements: included by continuum/fem alone, full of deal.II, no part of the interface.
 PRIVATE_FOLDERS = ["continuum/fem/detail"]
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
+LITERAL = re.compile(r'//[^\n]*|"((?:\\.|[^"\\\n])*)"')
+CODE_NAME = re.compile(r"\b[A-Z]?[a-z]+[A-Z][a-z]+\w*|\w+::\w+")
+PROPER_NAMES = ("ParaView", "CellId")
 ROW = re.compile(r"^\| `([\w/]+)` \|.*\| ([^|]*) \|$", re.MULTILINE)
 
 
@@ -84,6 +87,14 @@ def wrong_includes(root, name, rooms):
                 yield f"{name}: a public header must not show {included} to others"
 
 
+def wrong_words(root, name):
+    """Names of the code in sentences for users, which a renaming leaves there."""
+    for literal in LITERAL.findall((root / name).read_text(encoding="utf-8")):
+        for word in CODE_NAME.findall(literal.replace("\\n", " ")) if " " in literal and "<" not in literal else ():
+            if word not in PROPER_NAMES:
+                yield f'{name}: "{literal}" names {word}, which users do not know'
+
+
 def circle_of(root, files):
     """A circle of folders that include each other, as a list of folders; empty when there is none."""
     edges = {}
@@ -125,6 +136,7 @@ def main():
     rooms = rooms_of(root / "docs" / "architecture.md")
     faults = list(wrong_folders(rooms, {folder_of(name) for name in files}))
     faults += [message for name in files for message in wrong_includes(root, name, rooms)]
+    faults += [message for name in files for message in wrong_words(root, name)]
     if circle := circle_of(root, files):
         faults.append("folders include each other in a circle: " + " -> ".join(circle))
     headers = [name for name in files if name.endswith(".hpp") and not below(name, PRIVATE_FOLDERS)]

@@ -1,5 +1,5 @@
 // Started programs: what they print, how they end, what reaches them.
-#include "coupling/common/machine/child_process.hpp"
+#include "coupling/core/machine/child_process.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -9,7 +9,7 @@
 #include <csignal>
 #include <thread>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin {
 namespace {

@@ -1,12 +1,12 @@
 // Manifests, checked readings, the lock of a folder, the newer of two checkpoints.
 #include <gtest/gtest.h>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/folder_lock.hpp"
-#include "coupling/common/files/last_whole.hpp"
-#include "coupling/common/files/manifest.hpp"
-#include "coupling/common/files/result_folder.hpp"
-#include "coupling/common/files/text_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/folder_lock.hpp"
+#include "coupling/core/files/last_whole.hpp"
+#include "coupling/core/files/manifest.hpp"
+#include "coupling/core/files/result_folder.hpp"
+#include "coupling/core/files/text_file.hpp"
 #include "tests/files/folder.hpp"
 #include "tests/support/signed_folder.hpp"
 

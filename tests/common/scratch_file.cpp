@@ -1,5 +1,5 @@
 // Numbers that wait on the disk come back as they were, and few of them are in memory.
-#include "coupling/common/files/scratch_file.hpp"
+#include "coupling/core/files/scratch_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -7,7 +7,7 @@
 #include <csignal>
 #include <cstring>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin {
 namespace {

@@ -1,5 +1,5 @@
 // Files that are written aside: gone with their object, and when a signal handler ends the process.
-#include "coupling/common/files/unfinished_file.hpp"
+#include "coupling/core/files/unfinished_file.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

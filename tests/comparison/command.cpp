@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "apps/output/commands.hpp"
-#include "coupling/common/errors.hpp"
 #include "coupling/comparison/layers.hpp"
-#include "coupling/hdf5/field_map_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/hdf5/field_map_file.hpp"
 #include "particles/measurement/layers/scalars.hpp"
 #include "tests/comparison/example_maps.hpp"
 #include "tests/comparison/run_folders.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 // The flow of example.hpp over the plane of its drum.
-#include "coupling/results/plane_invariants.hpp"
+#include "coupling/core/results/plane_invariants.hpp"
 #include "tests/comparison/example.hpp"
 
 namespace drumlin::testing {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "tests/comparison/example.hpp"
 
 namespace drumlin {
@@ -144,7 +144,7 @@ TEST(ProfileErrors, OfAxesTakeTheNearestTurn) {
 
 TEST(ProfileErrors, AxisAngleOfSimpleShearIsThatOfItsRatioOfStresses) {
   const auto field = overlay("axis_angle_deg", example_profiles(), example_profiles());
-  // tan(2 angle) = (k - 1)/(2 mu), coupling/results/plane_invariants.hpp
+  // tan(2 angle) = (k - 1)/(2 mu), coupling/core/results/plane_invariants.hpp
   const double expected = std::atan2(0.78 / 0.75 - 1, 2 * 0.27 / 0.75) / 2 * 180 / 3.14159265358979;
   for (std::size_t i = 1; i + 1 < field.z.size(); ++i) EXPECT_NEAR(field.particles[i], expected, 1e-9);
   EXPECT_GT(field.ci99[10], 0);

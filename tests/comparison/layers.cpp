@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "tests/comparison/example.hpp"
 #include "tests/comparison/shear_example.hpp"
 #include "tests/files/folder.hpp"

@@ -3,8 +3,8 @@
 
 #include <cstring>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/results/measured_run.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/results/measured_run.hpp"
 #include "tests/comparison/run_folders.hpp"
 #include "tests/support/data_folder.hpp"
 #include "tests/support/says.hpp"

@@ -1,9 +1,9 @@
 // The same place of the drum on both sides, slices and maps.
 #include <gtest/gtest.h>
 
-#include "coupling/common/errors.hpp"
 #include "coupling/comparison/comparison.hpp"
 #include "coupling/comparison/map_sampling.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "tests/comparison/example_maps.hpp"
 #include "tests/support/says.hpp"
 

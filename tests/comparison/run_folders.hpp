@@ -2,7 +2,7 @@
 // Folders as `drumlin measure` and `drumlin flow` leave them, with the profiles of example.hpp.
 #include <nlohmann/json.hpp>
 
-#include "coupling/common/files/text_file.hpp"
+#include "coupling/core/files/text_file.hpp"
 #include "tests/comparison/example.hpp"
 #include "tests/files/folder.hpp"
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "coupling/common/errors.hpp"
 #include "coupling/comparison/comparison.hpp"
 #include "coupling/comparison/targets.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "tests/comparison/example.hpp"
 #include "tests/support/says.hpp"
 

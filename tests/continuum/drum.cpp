@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "tests/support/data_folder.hpp"
 #include "tests/support/says.hpp"
 

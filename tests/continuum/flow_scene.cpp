@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "tests/support/data_folder.hpp"
 #include "tests/support/says.hpp"
 
@@ -148,9 +148,9 @@ TEST(FlowScene, RefusesWhatMeansNothingInItsGeometry) {
       "outer_radius_mm");
   const std::string annulus = scene_with(
       "[annulus]\ninner_radius_mm = 66\nouter_radius_mm = 132\nrotation_rpm = 13\npressure_pa = 350");
-  for (const std::string number : {"annulus.inner_radius_mm=5e-324", "annulus.inner_radius_mm=1e-8",
-                                   "annulus.pressure_pa=5e-324", "annulus.pressure_pa=100",
-                                   "output.map_spacing=1e-9"})
+  for (const std::string number :
+       {"annulus.inner_radius_mm=5e-324", "annulus.inner_radius_mm=1e-8", "annulus.pressure_pa=5e-324",
+        "annulus.pressure_pa=100", "output.map_spacing=1e-9"})
     expect_has(refusal(annulus, {number}), number.substr(0, number.find('=')));
 }
 

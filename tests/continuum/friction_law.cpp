@@ -1,4 +1,4 @@
-#include "coupling/law/friction_law.hpp"
+#include "coupling/core/law/friction_law.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "continuum/rheology/stress_law.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/law/memory_law.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/law/memory_law.hpp"
 
 namespace drumlin {
 using namespace continuum;

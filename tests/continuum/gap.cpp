@@ -9,7 +9,7 @@
 
 #include "continuum/reference/closed_forms.hpp"
 #include "continuum/reference/gap_solution.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "tests/support/says.hpp"
 
 namespace drumlin::gap {

@@ -3,7 +3,7 @@
 
 #include "boxes.hpp"
 #include "continuum/model/drum.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "tests/support/says.hpp"
 
 namespace drumlin {

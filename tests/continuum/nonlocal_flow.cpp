@@ -1,6 +1,6 @@
 // Fluidity that spreads over a given length, in whole flows.
 #include "boxes.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"
 
 namespace drumlin::nonlocal_flow {

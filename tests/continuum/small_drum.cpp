@@ -6,7 +6,7 @@
 #include "boxes.hpp"
 #include "continuum/fem/runtime.hpp"
 #include "continuum/postprocessing/drum_profiles.hpp"
-#include "coupling/hdf5/field_map_file.hpp"
+#include "coupling/core/hdf5/field_map_file.hpp"
 
 namespace drumlin::small_drum_test {
 using namespace continuum;

@@ -8,7 +8,7 @@
 #include "continuum/fem/detail/point_law.hpp"
 #include "continuum/fem/detail/settled_fluidity.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "manufactured_flow.hpp"
 #include "tangent_error.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"

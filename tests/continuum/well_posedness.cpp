@@ -1,4 +1,4 @@
-#include "coupling/law/well_posedness.hpp"
+#include "coupling/core/law/well_posedness.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "continuum/rheology/turned_law.hpp"
-#include "coupling/law/ill_posed.hpp"
+#include "coupling/core/law/ill_posed.hpp"
 
 namespace drumlin {
 using namespace continuum;

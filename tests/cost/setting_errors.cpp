@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "coupling/statistics/quantiles.hpp"
-#include "coupling/statistics/setting_error.hpp"
+#include "coupling/core/statistics/quantiles.hpp"
+#include "coupling/core/statistics/setting_error.hpp"
 #include "particles/measurement/motion_difference.hpp"
 
 namespace drumlin {

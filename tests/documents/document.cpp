@@ -1,4 +1,4 @@
-#include "coupling/documents/document.hpp"
+#include "coupling/core/documents/document.hpp"
 
 #include <gtest/gtest.h>
 

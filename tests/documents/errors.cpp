@@ -1,9 +1,9 @@
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 #include <gtest/gtest.h>
 
-#include "coupling/common/provenance.hpp"
-#include "coupling/common/scales.hpp"
+#include "coupling/core/basics/provenance.hpp"
+#include "coupling/core/basics/scales.hpp"
 
 namespace drumlin {
 namespace {

@@ -1,10 +1,10 @@
-#include "coupling/documents/key_table.hpp"
+#include "coupling/core/documents/key_table.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "coupling/documents/one_line.hpp"
+#include "coupling/core/documents/one_line.hpp"
 #include "tests/support/says.hpp"
 
 namespace drumlin::garden {

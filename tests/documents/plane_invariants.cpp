@@ -1,4 +1,4 @@
-#include "coupling/results/plane_invariants.hpp"
+#include "coupling/core/results/plane_invariants.hpp"
 
 #include <gtest/gtest.h>
 

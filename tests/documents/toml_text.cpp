@@ -1,4 +1,4 @@
-#include "coupling/documents/toml_text.hpp"
+#include "coupling/core/documents/toml_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/scene/deposited_placement.hpp"
 #include "particles/scene/random.hpp"
 #include "particles/scene/sizes.hpp"

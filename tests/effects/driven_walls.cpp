@@ -1,7 +1,7 @@
 // Walls that a force moves against the grains.
 #include <numbers>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "tests/effects/drums.hpp"
 
 namespace drumlin::driven_walls {

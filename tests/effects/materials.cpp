@@ -2,7 +2,7 @@
 #include <fstream>
 #include <numeric>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/scene/placement.hpp"
 #include "tests/effects/drums.hpp"
 

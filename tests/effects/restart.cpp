@@ -1,5 +1,5 @@
 // A run that is stopped and read back from its checkpoint goes on as if nothing had been, with every effect.
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/scene/validate.hpp"
 #include "particles/stepping/prolong.hpp"

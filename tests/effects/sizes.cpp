@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/detection/contact_list.hpp"
 #include "particles/scene/placement.hpp"
 #include "particles/stepping/wall_crossing.hpp"

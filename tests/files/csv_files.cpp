@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "coupling/documents/csv.hpp"
+#include "coupling/core/documents/csv.hpp"
 
 namespace drumlin {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <functional>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/hdf5/h5_reader.hpp"
-#include "coupling/hdf5/h5_writer.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/hdf5/h5_reader.hpp"
+#include "coupling/core/hdf5/h5_writer.hpp"
 #include "tests/files/folder.hpp"
 
 namespace drumlin {

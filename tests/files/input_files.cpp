@@ -3,13 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/input_file.hpp"
-#include "coupling/common/files/text_file.hpp"
-#include "coupling/documents/document.hpp"
-#include "coupling/documents/json_document.hpp"
-#include "coupling/hdf5/h5_reader.hpp"
-#include "coupling/results/profile_set.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/document.hpp"
+#include "coupling/core/documents/json_document.hpp"
+#include "coupling/core/files/input_file.hpp"
+#include "coupling/core/files/text_file.hpp"
+#include "coupling/core/hdf5/h5_reader.hpp"
+#include "coupling/core/results/profile_set.hpp"
 #include "tests/files/folder.hpp"
 
 namespace drumlin {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "apps/json/json_file.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/documents/json_numbers.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/json_numbers.hpp"
 #include "tests/files/folder.hpp"
 
 namespace drumlin::apps {

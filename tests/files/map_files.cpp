@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/text_file.hpp"
-#include "coupling/hdf5/field_map_file.hpp"
-#include "coupling/hdf5/h5_reader.hpp"
-#include "coupling/hdf5/h5_writer.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/text_file.hpp"
+#include "coupling/core/hdf5/field_map_file.hpp"
+#include "coupling/core/hdf5/h5_reader.hpp"
+#include "coupling/core/hdf5/h5_writer.hpp"
 #include "tests/files/folder.hpp"
 
 namespace drumlin::map_files {

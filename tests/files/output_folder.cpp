@@ -6,10 +6,10 @@
 
 #include <csignal>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/folder_lock.hpp"
-#include "coupling/common/files/result_folder.hpp"
-#include "coupling/common/files/text_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/folder_lock.hpp"
+#include "coupling/core/files/result_folder.hpp"
+#include "coupling/core/files/text_file.hpp"
 #include "tests/files/folder.hpp"
 
 namespace drumlin::apps {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/results/profile_set.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/results/profile_set.hpp"
 #include "tests/files/folder.hpp"
 
 namespace drumlin {

@@ -11,7 +11,7 @@
 
 #include "apps/process/interruption.hpp"
 #include "apps/process/standard_streams.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::apps {
 namespace {

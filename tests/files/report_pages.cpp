@@ -7,8 +7,8 @@
 #include "apps/json/comparison_json.hpp"
 #include "apps/json/json_file.hpp"
 #include "apps/output/pending_figures.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/text_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/text_file.hpp"
 #include "tests/files/folder.hpp"
 #include "tests/support/signed_folder.hpp"
 

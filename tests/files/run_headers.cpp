@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/text_file.hpp"
-#include "coupling/documents/number_text.hpp"
-#include "coupling/results/profile_set.hpp"
-#include "coupling/results/run_header.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/number_text.hpp"
+#include "coupling/core/files/text_file.hpp"
+#include "coupling/core/results/profile_set.hpp"
+#include "coupling/core/results/run_header.hpp"
 #include "tests/files/folder.hpp"
 #include "tests/support/headers.hpp"
 

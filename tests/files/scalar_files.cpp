@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/results/scalar_set.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/results/scalar_set.hpp"
 #include "tests/files/folder.hpp"
 
 namespace drumlin {

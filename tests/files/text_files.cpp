@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/text_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/text_file.hpp"
 #include "tests/files/folder.hpp"
 
 namespace drumlin {

@@ -1,5 +1,5 @@
 // Fuzz target: comma-separated files. The first line names the reader: profiles, log or grains.
-#include "coupling/results/profile_set.hpp"
+#include "coupling/core/results/profile_set.hpp"
 #include "particles/measurement/run_log.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "tests/fuzz/one_input.hpp"

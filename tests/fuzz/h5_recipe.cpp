@@ -6,9 +6,9 @@
 #include <sstream>
 #include <vector>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/documents/number_text.hpp"
-#include "coupling/hdf5/h5_writer.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/number_text.hpp"
+#include "coupling/core/hdf5/h5_writer.hpp"
 
 namespace drumlin::fuzz {
 namespace {

@@ -1,7 +1,7 @@
 // Fuzz target: JSON documents as the commands read them. The first line names the file of a measured run or
 // of a flow that the rest replaces: run.json, measured.json, flow.json.
-#include "coupling/common/files/input_file.hpp"
-#include "coupling/results/measured_run.hpp"
+#include "coupling/core/files/input_file.hpp"
+#include "coupling/core/results/measured_run.hpp"
 #include "tests/comparison/run_folders.hpp"
 #include "tests/fuzz/one_input.hpp"
 

@@ -1,8 +1,8 @@
 // Fuzz target: the text of a law. One that is accepted has a positive, finite mu(I) that does not fall.
 #include <cmath>
 
-#include "coupling/law/friction_law.hpp"
-#include "coupling/law/rheology_file.hpp"
+#include "coupling/core/law/friction_law.hpp"
+#include "coupling/core/law/rheology_file.hpp"
 #include "tests/fuzz/one_input.hpp"
 
 using namespace drumlin;

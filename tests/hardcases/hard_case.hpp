@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/common/enum_names.hpp"
+#include "coupling/core/basics/enum_names.hpp"
 
 namespace drumlin {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/import/import_run.hpp"
 #include "tests/files/folder.hpp"
 

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/measurement/grains/voronoi_cells.hpp"
 #include "particles/measurement/history/region_history.hpp"
 #include "particles/measurement/maps/map_measurement.hpp"

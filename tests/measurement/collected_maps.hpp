@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "coupling/common/files/scratch_file.hpp"
-#include "coupling/results/field_map.hpp"
+#include "coupling/core/files/scratch_file.hpp"
+#include "coupling/core/results/field_map.hpp"
 #include "particles/measurement/maps/displacement_sums.hpp"
 #include "particles/measurement/maps/field_maps.hpp"
 

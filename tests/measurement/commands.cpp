@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/output/pending_figures.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/text_file.hpp"
-#include "coupling/hdf5/field_map_file.hpp"
-#include "coupling/hdf5/h5_reader.hpp"
-#include "coupling/law/rheology_file.hpp"
-#include "coupling/results/scalar_set.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/text_file.hpp"
+#include "coupling/core/hdf5/field_map_file.hpp"
+#include "coupling/core/hdf5/h5_reader.hpp"
+#include "coupling/core/law/rheology_file.hpp"
+#include "coupling/core/results/scalar_set.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "tests/comparison/run_folders.hpp"
 #include "tests/files/folder.hpp"

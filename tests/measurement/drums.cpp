@@ -1,7 +1,7 @@
 // The flow frame, the frame of the drum, and that the laboratory's axes do not matter.
 #include <gtest/gtest.h>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/measurement/history/region_history.hpp"
 #include "particles/measurement/history/wall_history.hpp"
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "coupling/statistics/quantiles.hpp"
+#include "coupling/core/statistics/quantiles.hpp"
 
 namespace drumlin {
 using namespace particles;

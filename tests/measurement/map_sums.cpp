@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/measurement/maps/spline_kernel.hpp"
 #include "tests/measurement/packings.hpp"
 

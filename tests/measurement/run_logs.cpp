@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/measurement/run_log.hpp"
 #include "tests/files/folder.hpp"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/results/profile_scalars.hpp"
+#include "coupling/core/results/profile_scalars.hpp"
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {

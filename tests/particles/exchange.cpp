@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/measurement/flow_rate.hpp"

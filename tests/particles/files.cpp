@@ -5,9 +5,9 @@
 #include <fstream>
 #include <functional>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/hdf5/h5_reader.hpp"
-#include "coupling/hdf5/h5_writer.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/hdf5/h5_reader.hpp"
+#include "coupling/core/hdf5/h5_writer.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/lab/any_solver.hpp"
 #include "particles/lab/contact_problem_file.hpp"

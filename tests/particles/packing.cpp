@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/detection/contact_list.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/scene/placement.hpp"

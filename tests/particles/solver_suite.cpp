@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/contact_law/coulomb_coupled.hpp"
 #include "particles/lab/block_problem.hpp"
 #include "tests/particles/solving.hpp"

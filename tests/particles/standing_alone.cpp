@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/lab/matrix_problem.hpp"
 #include "particles/lab/solve_contacts.hpp"
 #include "particles/scene/scene_file.hpp"

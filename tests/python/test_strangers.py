@@ -47,7 +47,7 @@ def mutations(texts, count, seed):
 
 
 def sealed(path):
-    """With the checksum of our files at its end (coupling/hdf5/h5_handles)."""
+    """With the checksum of our files at its end (coupling/core/hdf5/h5_handles)."""
     stored = path.read_bytes()
     path.write_bytes(stored + TRAILER_WORD + struct.pack("<I", zlib.crc32(stored)))
 

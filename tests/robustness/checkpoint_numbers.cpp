@@ -2,8 +2,8 @@
 // it is cut to the type that holds it.
 #include <gtest/gtest.h>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/text_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/text_file.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "tests/files/folder.hpp"
 #include "tests/fuzz/h5_recipe.hpp"

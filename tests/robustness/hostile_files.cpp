@@ -6,9 +6,9 @@
 #include <fstream>
 #include <limits>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/hdf5/field_map_file.hpp"
-#include "coupling/hdf5/h5_writer.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/hdf5/field_map_file.hpp"
+#include "coupling/core/hdf5/h5_writer.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/scene/random.hpp"
 #include "tests/support/scenes.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "tests/files/folder.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "tests/support/says.hpp"
 
 namespace drumlin::apps {

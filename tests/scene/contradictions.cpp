@@ -3,7 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "coupling/common/files/text_file.hpp"
+#include "coupling/core/files/text_file.hpp"
 #include "tests/scene/example.hpp"
 #include "tests/support/data_folder.hpp"
 

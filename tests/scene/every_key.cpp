@@ -10,8 +10,8 @@
 
 #include "apps/json/json_file.hpp"
 #include "apps/output/commands.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/text_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/text_file.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "tests/files/folder.hpp"

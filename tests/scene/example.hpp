@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "tests/support/says.hpp"
 #include "tests/support/scene_text.hpp"

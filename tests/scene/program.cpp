@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-#include "coupling/common/machine/child_process.hpp"
+#include "coupling/core/machine/child_process.hpp"
 #include "tests/files/folder.hpp"
 #include "tests/scene/example.hpp"
 

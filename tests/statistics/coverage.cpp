@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "coupling/statistics/quantiles.hpp"
-#include "coupling/statistics/samples.hpp"
-#include "coupling/statistics/straight_line.hpp"
+#include "coupling/core/statistics/quantiles.hpp"
+#include "coupling/core/statistics/samples.hpp"
+#include "coupling/core/statistics/straight_line.hpp"
 
 namespace drumlin::statistics {
 namespace {

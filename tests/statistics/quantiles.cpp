@@ -1,4 +1,4 @@
-#include "coupling/statistics/quantiles.hpp"
+#include "coupling/core/statistics/quantiles.hpp"
 
 #include <gtest/gtest.h>
 

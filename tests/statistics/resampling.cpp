@@ -1,4 +1,4 @@
-#include "coupling/statistics/resampling.hpp"
+#include "coupling/core/statistics/resampling.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "coupling/statistics/samples.hpp"
+#include "coupling/core/statistics/samples.hpp"
 
 namespace drumlin::statistics {
 namespace {

@@ -1,4 +1,4 @@
-#include "coupling/statistics/samples.hpp"
+#include "coupling/core/statistics/samples.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <vector>
 
-#include "coupling/statistics/quantiles.hpp"
-#include "coupling/statistics/straight_line.hpp"
+#include "coupling/core/statistics/quantiles.hpp"
+#include "coupling/core/statistics/straight_line.hpp"
 
 namespace drumlin::statistics {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/results/run_header.hpp"
+#include "coupling/core/results/run_header.hpp"
 
 namespace drumlin::testing {
 

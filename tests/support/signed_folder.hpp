@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "coupling/common/files/manifest.hpp"
+#include "coupling/core/files/manifest.hpp"
 
 namespace drumlin::testing {
 

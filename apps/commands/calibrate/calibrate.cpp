@@ -15,9 +15,9 @@
 #include "apps/output/output_folder.hpp"
 #include "apps/process/asked.hpp"
 #include "apps/process/standard_streams.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/input_file.hpp"
-#include "coupling/law/rheology_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/input_file.hpp"
+#include "coupling/core/law/rheology_file.hpp"
 
 namespace drumlin::apps {
 

@@ -7,7 +7,7 @@
 #include "apps/commands/calibrate/memory_json.hpp"
 #include "apps/commands/calibrate/nonlocal_json.hpp"
 #include "apps/json/json_file.hpp"
-#include "coupling/statistics/straight_line.hpp"
+#include "coupling/core/statistics/straight_line.hpp"
 
 namespace drumlin {
 inline void to_json(nlohmann::ordered_json& json, const InertialRange& range) {

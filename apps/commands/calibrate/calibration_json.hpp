@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "coupling/calibration/calibration.hpp"
-#include "coupling/results/measured_run.hpp"
+#include "coupling/core/results/measured_run.hpp"
 
 namespace drumlin::apps {
 

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <utility>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/hdf5/field_map_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/hdf5/field_map_file.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "apps/output/commands.hpp"
 #include "coupling/calibration/run_evidence.hpp"
-#include "coupling/results/measured_run.hpp"
+#include "coupling/core/results/measured_run.hpp"
 
 namespace drumlin::apps {
 

@@ -12,11 +12,11 @@
 #include "apps/output/output_folder.hpp"
 #include "apps/process/interruption.hpp"
 #include "apps/process/standard_streams.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/text_file.hpp"
-#include "coupling/common/files/unfinished_file.hpp"
-#include "coupling/common/machine/child_process.hpp"
-#include "coupling/documents/document.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/document.hpp"
+#include "coupling/core/files/text_file.hpp"
+#include "coupling/core/files/unfinished_file.hpp"
+#include "coupling/core/machine/child_process.hpp"
 
 namespace drumlin::apps {
 namespace {

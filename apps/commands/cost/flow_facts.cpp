@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/cost/cost.hpp"
-#include "coupling/common/files/text_file.hpp"
-#include "coupling/documents/document.hpp"
-#include "coupling/documents/toml_text.hpp"
+#include "coupling/core/documents/document.hpp"
+#include "coupling/core/documents/toml_text.hpp"
+#include "coupling/core/files/text_file.hpp"
 
 namespace drumlin::apps {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "apps/output/figures.hpp"
-#include "coupling/common/files/text_file.hpp"
-#include "coupling/documents/json_numbers.hpp"
+#include "coupling/core/documents/json_numbers.hpp"
+#include "coupling/core/files/text_file.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/layers/variants.hpp"
 #include "particles/scene/scene_file.hpp"

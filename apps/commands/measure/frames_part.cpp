@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "apps/process/standard_streams.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/common/files/text_file.hpp"
-#include "coupling/documents/csv.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/csv.hpp"
+#include "coupling/core/files/text_file.hpp"
 #include "particles/measurement/layers/slice.hpp"
 
 namespace drumlin::apps {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "coupling/common/files/text_file.hpp"
+#include "coupling/core/files/text_file.hpp"
 #include "particles/io/grain_file.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/io/snapshot_list.hpp"

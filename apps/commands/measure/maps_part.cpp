@@ -11,8 +11,8 @@
 #include "apps/json/described.hpp"
 #include "apps/json/json_file.hpp"
 #include "apps/process/standard_streams.hpp"
-#include "coupling/common/files/scratch_file.hpp"
-#include "coupling/hdf5/field_map_file.hpp"
+#include "coupling/core/files/scratch_file.hpp"
+#include "coupling/core/hdf5/field_map_file.hpp"
 #include "particles/measurement/maps/field_values.hpp"
 #include "particles/measurement/maps/map_measurement.hpp"
 

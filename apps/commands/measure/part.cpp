@@ -10,7 +10,7 @@
 #include "apps/commands/measure/frames_part.hpp"
 #include "apps/commands/measure/grains_part.hpp"
 #include "apps/commands/measure/maps_part.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::apps {
 

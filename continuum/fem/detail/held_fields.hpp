@@ -92,7 +92,7 @@ struct RhoSources {
 RhoSources rho_sources(const FlowProblem& problem, const Discretisation& d, const State& state, double m,
                        const ScalarField& axes);
 
-/// The dilatancy psi that the material feels (coupling/law/memory_law.hpp); the memory has to have an
+/// The dilatancy psi that the material feels (coupling/core/law/memory_law.hpp); the memory has to have an
 /// AmountMemory. Collective; throws NotConvergedError as held_from().
 std::shared_ptr<ScalarField> carried_dilatancy(const FlowProblem& problem, const Discretisation& d,
                                                const State& state, double linear_tolerance);

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::continuum::fem {
 

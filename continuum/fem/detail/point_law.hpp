@@ -10,7 +10,7 @@
 #include "continuum/rheology/nonlocal_law.hpp"
 #include "continuum/rheology/threshold_fluidity.hpp"
 #include "continuum/rheology/turned_law.hpp"
-#include "coupling/law/well_posedness.hpp"
+#include "coupling/core/law/well_posedness.hpp"
 
 namespace drumlin::continuum::fem {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/statistics/straight_line.hpp"
+#include "coupling/core/statistics/straight_line.hpp"
 #include "particles/measurement/frame/disc_area.hpp"
 
 namespace drumlin::particles {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "coupling/common/files/scratch_file.hpp"
+#include "coupling/core/files/scratch_file.hpp"
 #include "particles/bodies/snapshot.hpp"
 
 namespace drumlin::particles {

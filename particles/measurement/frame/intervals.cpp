@@ -6,8 +6,8 @@
 #include <numeric>
 #include <vector>
 
-#include "coupling/statistics/quantiles.hpp"
-#include "coupling/statistics/resampling.hpp"
+#include "coupling/core/statistics/quantiles.hpp"
+#include "coupling/core/statistics/resampling.hpp"
 
 namespace drumlin::particles {
 

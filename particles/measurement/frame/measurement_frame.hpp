@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "coupling/results/profile_scalars.hpp"
+#include "coupling/core/results/profile_scalars.hpp"
 #include "particles/measurement/frame/flow_frame.hpp"
 #include "particles/measurement/frame/survey.hpp"
 

@@ -10,8 +10,8 @@
 #include <numbers>
 #include <optional>
 
-#include "coupling/common/no_value.hpp"
-#include "coupling/results/plane_invariants.hpp"
+#include "coupling/core/basics/no_value.hpp"
+#include "coupling/core/results/plane_invariants.hpp"
 
 namespace drumlin::particles {
 

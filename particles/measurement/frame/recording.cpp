@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/measurement/frame/flow_frame.hpp"
 
 namespace drumlin::particles {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/statistics/straight_line.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/statistics/straight_line.hpp"
 #include "particles/measurement/frame/dense_window.hpp"
 #include "particles/measurement/frame/flow_snapshot.hpp"
 #include "particles/measurement/frame/grain_bins.hpp"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "coupling/common/no_value.hpp"
+#include "coupling/core/basics/no_value.hpp"
 #include "particles/measurement/frame/grain_bins.hpp"
 
 namespace drumlin::particles {

@@ -1,6 +1,6 @@
 #include "particles/measurement/grains/grain_fields.hpp"
 
-#include "coupling/common/no_value.hpp"
+#include "coupling/core/basics/no_value.hpp"
 #include "particles/measurement/frame/grain_bins.hpp"
 
 namespace drumlin::particles {

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "coupling/common/no_value.hpp"
+#include "coupling/core/basics/no_value.hpp"
 #include "particles/bodies/cell_path.hpp"
 
 namespace drumlin::particles {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "coupling/common/errors.hpp"
-#include "coupling/common/no_value.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/basics/no_value.hpp"
 
 namespace drumlin::particles {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "coupling/results/plane_invariants.hpp"
+#include "coupling/core/results/plane_invariants.hpp"
 #include "particles/bodies/cell_path.hpp"
 #include "particles/bodies/snapshot.hpp"
 #include "particles/measurement/frame/grain_bins.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "coupling/statistics/straight_line.hpp"
+#include "coupling/core/statistics/straight_line.hpp"
 #include "particles/measurement/frame/flow_frame.hpp"
 
 namespace drumlin::particles {

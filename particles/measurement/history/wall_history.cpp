@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "coupling/common/no_value.hpp"
+#include "coupling/core/basics/no_value.hpp"
 
 namespace drumlin::particles {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "coupling/results/layer_ratios.hpp"
+#include "coupling/core/results/layer_ratios.hpp"
 
 namespace drumlin::particles {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "coupling/results/profile_set.hpp"
+#include "coupling/core/results/profile_set.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/layers/layer_sums.hpp"
 
@@ -37,8 +37,8 @@ struct Profile {
   double surface_z = 0;  ///< of z = 0 in the frame of the grid
 };
 
-/// A column of a table: its name (coupling/results/quantities.hpp), where it stands, what it needs and, in
-/// other axes, the sign that it takes.
+/// A column of a table: its name (coupling/core/results/quantities.hpp), where it stands, what it needs and,
+/// in other axes, the sign that it takes.
 struct LayerQuantity {
   const char* name;
   double LayerValues::*value;

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/results/layer_ratios.hpp"
-#include "coupling/results/profile_scalars.hpp"
-#include "coupling/statistics/straight_line.hpp"
+#include "coupling/core/results/layer_ratios.hpp"
+#include "coupling/core/results/profile_scalars.hpp"
+#include "coupling/core/statistics/straight_line.hpp"
 #include "particles/measurement/frame/measurement_frame.hpp"
 
 namespace drumlin::particles {
@@ -31,8 +31,8 @@ ScalarSet scalars_of(std::initializer_list<std::pair<const char*, double>> value
   return set;
 }
 
-/// Mean of a quantity, or of value(layer), over the layers of a zone; NaN when there is Of::none or one of
-/// them is NaN.
+/// Mean of a quantity, or of value(layer), over the layers of a zone; NaN without a zone, or
+/// when one of them is NaN.
 template <class Value>
 double mean_over(const Layers& layers, Zone zone, Value value) {
   if (!std::isfinite(zone.bottom) || !std::isfinite(zone.top)) return Of::none;

@@ -2,7 +2,7 @@
 // The scalars of one profile at the centre (docs/theory/measurement.md defines each).
 #include <string>
 
-#include "coupling/results/scalar_set.hpp"
+#include "coupling/core/results/scalar_set.hpp"
 #include "particles/measurement/layers/profile.hpp"
 
 namespace drumlin::particles {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "coupling/results/profile_set.hpp"
-#include "coupling/results/scalar_set.hpp"
+#include "coupling/core/results/profile_set.hpp"
+#include "coupling/core/results/scalar_set.hpp"
 
 namespace drumlin::particles {
 

@@ -2,7 +2,7 @@
 // How grains become fields: the nodes of a map, the kernel, and the frame of both.
 #include <cstddef>
 
-#include "coupling/results/field_map.hpp"
+#include "coupling/core/results/field_map.hpp"
 #include "particles/measurement/frame/flow_frame.hpp"
 
 namespace drumlin::particles {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/common/no_value.hpp"
-#include "coupling/results/plane_invariants.hpp"
+#include "coupling/core/basics/no_value.hpp"
+#include "coupling/core/results/plane_invariants.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/maps/field_values.hpp"
 #include "particles/measurement/maps/spline_kernel.hpp"

@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "coupling/results/plane_invariants.hpp"
+#include "coupling/core/results/plane_invariants.hpp"
 #include "particles/measurement/maps/map_sums.hpp"
 
 namespace drumlin::particles {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "coupling/common/files/scratch_file.hpp"
+#include "coupling/core/files/scratch_file.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/maps/map_sums.hpp"
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "coupling/statistics/straight_line.hpp"
+#include "coupling/core/statistics/straight_line.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 
 namespace drumlin::particles {

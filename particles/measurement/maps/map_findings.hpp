@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "coupling/results/field_map.hpp"
+#include "coupling/core/results/field_map.hpp"
 
 namespace drumlin::particles {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "particles/bodies/cell_path.hpp"
 #include "particles/measurement/frame/accumulate.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "coupling/results/field_map.hpp"
+#include "coupling/core/results/field_map.hpp"
 
 namespace drumlin::particles {
 

@@ -9,7 +9,7 @@
 
 #include "continuum/fem/flow_solver.hpp"
 #include "continuum/postprocessing/drum_profiles.hpp"
-#include "coupling/common/errors.hpp"
+#include "coupling/core/basics/errors.hpp"
 #include "tests/hardcases/continuum/case_lists.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"
 

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "continuum/fem/flow_solver.hpp"
-#include "coupling/common/errors.hpp"
-#include "coupling/law/ill_posed.hpp"
-#include "coupling/law/rheology_file.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/law/ill_posed.hpp"
+#include "coupling/core/law/rheology_file.hpp"
 #include "tests/hardcases/continuum/case_lists.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"
 

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-#include "coupling/statistics/straight_line.hpp"
+#include "coupling/core/statistics/straight_line.hpp"
 
 namespace drumlin {
 

@@ -1,0 +1,63 @@
+#include "coupling/core/law/friction_law.hpp"
+
+#include <limits>
+
+namespace drumlin {
+
+FrictionValue friction_at(const FrictionLaw& law, double I) {
+  return std::visit([I](const auto& of) { return of.friction(I); }, law);
+}
+
+std::optional<double> threshold(const FrictionLaw& law) {
+  return std::visit(
+      [](const auto& of) -> std::optional<double> {
+        if constexpr (requires { of.threshold(); })
+          return of.threshold();
+        else
+          return {};
+      },
+      law);
+}
+
+double largest_measured_I(const FrictionLaw& law) {
+  return std::visit(
+      []<class Law>(const Law& of) {
+        double largest = 0;  // not known
+        if constexpr (requires { of.I_max; }) largest = of.I_max;
+        if constexpr (requires { of.points(); }) largest = of.points().I.back();
+        return largest > 0 ? largest : std::numeric_limits<double>::infinity();
+      },
+      law);
+}
+
+std::string described(const FrictionLaw& law) {
+  return std::visit([](const auto& of) { return of.words(); }, law);
+}
+
+std::vector<FormFault> faults_of(const FrictionLaw& law) {
+  return std::visit([](const auto& of) { return of.faults(); }, law);
+}
+
+std::vector<double> coefficients_of(const FrictionLaw& law) {
+  return std::visit(
+      []<class Law>(const Law& of) {
+        if constexpr (Fitted<Law>)
+          return of.coefficients();
+        else
+          return std::vector<double>();
+      },
+      law);
+}
+
+FrictionLaw with_coefficients(const FrictionLaw& law, std::span<const double> coefficients) {
+  return std::visit(
+      [&]<class Law>(const Law& of) -> FrictionLaw {
+        if constexpr (Fitted<Law>)
+          return of.with(coefficients);
+        else
+          return of;
+      },
+      law);
+}
+
+}  // namespace drumlin
