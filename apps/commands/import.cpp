@@ -59,6 +59,11 @@ void print_summary(const fs::path& run, const particles::ImportDescription& desc
   else
     print_out("  without contacts: no stress will be measured\n");
   if (!report.with_spin) print_out("  without spin\n");
+  if (report.unused_period_m)
+    print_out(
+        fmt::format("  the dump is periodic over {:g} m along x, the description is not: grains and contacts "
+                    "do not reach across its border (periodic_x)\n",
+                    *report.unused_period_m));
   for (const std::string& snapshot : report.left_out) print_out(fmt::format("  left out: {}\n", snapshot));
   if (!report.unused_columns.empty())
     print_out(fmt::format("  columns that were not used: {}\n", fmt::join(report.unused_columns, ", ")));

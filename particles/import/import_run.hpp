@@ -2,6 +2,7 @@
 // Import of the files of another program as snapshots.
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,8 @@ struct ImportReport {
   Scales scales;
   std::vector<std::string> files;
   std::vector<std::string> unused_columns;
-  std::vector<std::string> left_out;  ///< snapshots that were not taken over, and why
+  std::optional<double> unused_period_m;  ///< of a file that is periodic along x, unlike the description
+  std::vector<std::string> left_out;      ///< snapshots that were not taken over, and why
 };
 
 /// The files that a description names, below `folder`. Throws InputError where there is none.
