@@ -1,19 +1,16 @@
 // drumlin measure: profiles and scalars of a finished particle run.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <string_view>
 
 #include "apps/commands/accuracy_statement.hpp"
 #include "apps/commands/measure/content.hpp"
 #include "apps/commands/measure/part.hpp"
+#include "apps/commands/measure/summary.hpp"
 #include "apps/commands/run_accuracy.hpp"
 #include "apps/commands/run_report.hpp"
 #include "apps/json/json_file.hpp"
@@ -43,16 +40,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr double too_wide = 0.1;  // half width of a change of energy that tells nothing
-// Printed without --verbose.
-constexpr std::array<std::string_view, 6> drum_numbers{"theta_deg", "Q",          "H",
-                                                       "lambda",    "shear_rate", "nu_bulk"};
 constexpr double narrow_slice_width = 2;  // d, as the paper's five slices
-
-std::string trimmed(std::string text) {
-  text.erase(text.find_last_not_of(' ') + 1);
-  return text;
-}
 
 ResultFolder run_in(const fs::path& run) {
   if (!fs::is_directory(run)) throw InputError(run.string() + ": no such folder");
@@ -160,19 +148,6 @@ void write_series(const fs::path& file, const particles::TimeSeries& series) {
   replace_file(file, text);
 }
 
-/// One that was measured.
-void print_scalar(const Scalar& scalar, const particles::ScalarSensitivity& sensitivity) {
-  const std::string value = fmt::format("{:.4g}", scalar.value);
-  const bool known = scalar.ci99 && std::isfinite(*scalar.ci99);
-  const std::string windows = sensitivity.changes.empty()
-                                  ? ""
-                                  : fmt::format("{:.4g} ... {:.4g}, most by {}", sensitivity.lowest,
-                                                sensitivity.highest, sensitivity.strongest);
-  print_out(fmt::format("{}\n",
-                        trimmed(fmt::format("  {:32} {:>12} {:12} {}", scalar.name, value,
-                                            known ? fmt::format("+- {:.2g}", *scalar.ci99) : "", windows))));
-}
-
 /// What is known beside the intervals; nothing of another program's run.
 Json statement_of(const MeasureOptions& options, const Json& run, const particles::Measurement& measured,
                   const ScalarSet& scalars) {
@@ -193,35 +168,6 @@ Json statement_of(const MeasureOptions& options, const Json& run, const particle
   for (const Scalar& scalar : scalars.scalars)
     if (scalar.ci99 && std::isfinite(scalar.value)) with_intervals.scalars.push_back(scalar);
   return accuracy_statement(scene, accuracy_record(options.accuracy, scene), with_intervals, cost);
-}
-
-void print_steadiness(const particles::Steadiness& steadiness) {
-  print_out(steadiness.steady ? "steady" : "NOT STEADY, or too short to say:");
-  for (const std::string& reason : steadiness.reasons) print_out(fmt::format("\n  - {}", reason));
-  if (std::isfinite(steadiness.energy.value))
-    print_out(fmt::format("{}energy {:+.1f} +- {:.1f} % from the first half to the second",
-                          steadiness.steady ? ": " : "\n  ", 100 * steadiness.energy.value,
-                          100 * steadiness.energy.ci99));
-  if (std::isfinite(steadiness.slope_deg.value))
-    print_out(
-        fmt::format(", slope {:+.2f} +- {:.2f} deg", steadiness.slope_deg.value, steadiness.slope_deg.ci99));
-  if (std::isfinite(steadiness.pressure.value))
-    print_out(fmt::format("{}pressure {:+.1f} +- {:.1f} %", ", ", 100 * steadiness.pressure.value,
-                          100 * steadiness.pressure.ci99));
-  print_out(fmt::format("; judged by {}\n", steadiness.judged_by));
-  if (steadiness.energy.ci99 > too_wide)
-    print_out("  the change of energy is too uncertain to tell: sample longer, or more snapshots\n");
-}
-
-void print_scattered(const particles::Measurement& measured) {
-  if (!measured.scattered) return;
-  const particles::MeasurementFrame& place = measured.place;
-  print_out(
-      fmt::format("measured is the window x {:.4g} ... {:.4g} d, z {:.4g} ... {:.4g} d around the densest "
-                  "part; outside fly "
-                  "{:.4g} grains in the mean, {} at most, {} at the end\n",
-                  place.x_min, place.x_max, place.z_min, place.z_max, measured.scattered->mean,
-                  measured.scattered->most, measured.scattered->last));
 }
 
 /// Steps that missed a tolerance, where they are more than leave no trace in averages.
@@ -320,47 +266,10 @@ void print_accuracy(const Request& request, const Json& statement, const ScalarS
     print_out(text_of(statement, scalars));
 }
 
-/// In a line each: what was not measured though it belongs to the geometry, and how much does not belong.
-void print_unmeasured(const particles::MeasurementFrame& place, const ScalarSet& scalars) {
-  std::vector<std::string> unknown;
-  int of_a_drum = 0;
-  for (const Scalar& scalar : scalars.scalars) {
-    if (std::isfinite(scalar.value)) continue;
-    if (!(place.container_radius > 0) && particles::belongs_to_a_drum(scalar.name))
-      ++of_a_drum;
-    else
-      unknown.push_back(scalar.name);
-  }
-  if (!unknown.empty()) print_out(fmt::format("  not measured: {}\n", fmt::join(unknown, ", ")));
-  if (of_a_drum > 0)
-    print_out(fmt::format("  {} numbers of a drum's flow do not belong to {} (null in measured.json)\n",
-                          of_a_drum, place.period > 0 ? "layers" : "an open packing"));
-}
-
-/// The numbers that say most of a run, at most six: those of a drum, else the first.
-std::vector<Scalar> main_numbers(const ScalarSet& scalars) {
-  std::vector<Scalar> drum, first;
-  for (const Scalar& scalar : scalars.scalars) {
-    if (!std::isfinite(scalar.value)) continue;
-    if (std::ranges::find(drum_numbers, scalar.name) != drum_numbers.end()) drum.push_back(scalar);
-    if (first.size() < drum_numbers.size()) first.push_back(scalar);
-  }
-  return drum.size() > 1 ? drum : first;
-}
-
 void print_results(const Request& request, const fs::path& folder, const particles::Measurement& measured,
                    const ScalarSet& scalars, bool verbose) {
   print_out(fmt::format("{}{}\n", folder.string(), request.reduced ? " (reduced)" : ""));
-  if (request.settings.sensitivity)
-    print_out(fmt::format("  {:32} {:>12} {:12} {}\n", "", "value", "99 %",
-                          verbose ? "by other windows (measured.json has all)"
-                                  : "by other windows (--verbose prints all, measured.json has them)"));
-  for (const Scalar& scalar : verbose ? scalars.scalars : main_numbers(scalars))
-    if (std::isfinite(scalar.value))
-      print_scalar(scalar, particles::sensitivity_of(scalar, measured.variants));
-  print_unmeasured(measured.place, scalars);
-  print_scattered(measured);
-  print_steadiness(measured.steadiness);
+  print_summary(measured, scalars, request.settings.sensitivity, verbose);
   for (const Part& part : request.parts)
     if (part.print && verbose) part.print();
 }
