@@ -235,7 +235,7 @@ ImportReport import_run(const ImportDescription& description, const fs::path& fo
     s.wall_angle = turned_before + s.wall_spin * (time - *first_time);
     add_grains(table, rows, s);
     s.contacts_known = contacts.has_value();
-    if (!description.periodic_x) report.unused_period_m = table.period_m;
+    if (!description.periodic_x && !description.drum) report.unused_period_m = table.period_m;
     if (contacts)
       if (const auto of_time = contacts->at(time, table, report.scales)) {
         add_contacts(*of_time, bodies_of(table, rows, report.scales), s);

@@ -20,8 +20,9 @@ struct ImportReport {
   Scales scales;
   std::vector<std::string> files;
   std::vector<std::string> unused_columns;
-  std::optional<double> unused_period_m;  ///< of a file that is periodic along x, unlike the description
-  std::vector<std::string> left_out;      ///< snapshots that were not taken over, and why
+  std::optional<double>
+      unused_period_m;  ///< of a file periodic along x where the description has neither that nor a drum
+  std::vector<std::string> left_out;  ///< snapshots that were not taken over, and why
 };
 
 /// The files that a description names, below `folder`. Throws InputError where there is none.

@@ -113,6 +113,7 @@ TEST(LammpsImport, ABoxThatIsPeriodicAlongXHasThePeriodOfTheDescriptionInEachFra
   EXPECT_NEAR(imported(folder, told).snapshots.at(0).period_x * 9.81, 20, 1e-12);
   EXPECT_NEAR(imported(folder, description("")).report.unused_period_m.value(), 20, 1e-12);
   EXPECT_FALSE(imported(folder, told).report.unused_period_m);
+  EXPECT_FALSE(imported(folder, description("[drum]\nradius_m = 40\n")).report.unused_period_m);
   expect_has(refusal(folder, description("[periodic_x]\nlength_m = 30\n")),
              "dump.a:1: BOX BOUNDS: are periodic over 20 m along x (allowed: 30 m, periodic_x.length_m");
   std::string wider = frame(2, columns, {row});

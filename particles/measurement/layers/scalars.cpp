@@ -31,8 +31,8 @@ ScalarSet scalars_of(std::initializer_list<std::pair<const char*, double>> value
   return set;
 }
 
-/// Mean of a quantity, or of value(layer), over the layers of a zone; NaN without a zone, or
-/// when one of them is NaN.
+/// Mean of a quantity, or of value(layer), over the layers of a zone; NaN without a zone, or when one of
+/// them is NaN.
 template <class Value>
 double mean_over(const Layers& layers, Zone zone, Value value) {
   if (!std::isfinite(zone.bottom) || !std::isfinite(zone.top)) return Of::none;
