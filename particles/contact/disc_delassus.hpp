@@ -147,13 +147,14 @@ class DiscDelassus {
   }
 
   /// Contact a solved with the others as they stand: u are the velocities that belong to its impulses r.
-  Impulse solved(int a, const contact_law::Coefficients<double, dim>& mu, const Impulse& u,
+  template <class Law>
+  Impulse solved(Law law, int a, const contact_law::Coefficients<double, Law>& mu, const Impulse& u,
                  const Impulse& r) const {
-    if (dim == 3 || (coupled() && pushes_more(a))) return particles::solved(block(a), mu, u, r);
+    if (dim == 3 || (coupled() && pushes_more(a))) return particles::solved(law, block(a), mu, u, r);
     contact_law::InverseBlock<double, dim> W{};
     W.nn = inverse_W_nn[a];
     if constexpr (dim >= 2) W.tt = W.nn * (1 / largest_in_W_nn);
-    return contact_law::solved(W, mu, u, r);
+    return contact_law::solved(law, W, mu, u, r);
   }
 
   /// Sum of the sizes of what contacts give to driven walls, or of what crosses the cell under pressure.

@@ -1,29 +1,31 @@
 #pragma once
-// Names of the contact problems of discs: one type for each combination of effects. Whoever looks into one
-// includes problems.hpp.
+// Names of the contact problems of discs: one type for each combination of a law and bodies that turn or do
+// not. Whoever looks into one includes problems.hpp.
 #include <variant>
+
+#include "particles/contact_law/contact_laws.h"
 
 namespace drumlin::particles {
 
 template <int dim, bool spin>
 class DiscDelassus;
-template <class Delassus>
+template <class Delassus, class Law>
 struct ContactProblem;
 
-using FrictionlessProblem = ContactProblem<DiscDelassus<1, false>>;
-using CoulombProblem = ContactProblem<DiscDelassus<2, false>>;  ///< bodies that do not turn
-using CoulombSpinProblem = ContactProblem<DiscDelassus<2, true>>;
-using RollingProblem = ContactProblem<DiscDelassus<3, true>>;
+#define DRUMLIN_NAME(Problem, Law, spin) \
+  using Problem = ContactProblem<DiscDelassus<Law::unknowns, spin>, Law>;
+DRUMLIN_EACH_DISC_PROBLEM(DRUMLIN_NAME)
+#undef DRUMLIN_NAME
 
-// For each of them, with its numbers of unknowns and whether bodies turn.
-#define DRUMLIN_EACH_DISC_PROBLEM(X) \
-  X(FrictionlessProblem, 1, false)   \
-  X(CoulombProblem, 2, false) X(CoulombSpinProblem, 2, true) X(RollingProblem, 3, true)
-
+template <template <class...> class Together, template <class> class For, class, class... Problems>
+struct OfProblems {
+  using type = Together<For<Problems>...>;
+};
+#define DRUMLIN_NEXT(Problem, Law, spin) , Problem
 /// For<Problem>... of all kinds in one type.
 template <template <class...> class Together, template <class> class For>
-using OfEachKind =
-    Together<For<FrictionlessProblem>, For<CoulombProblem>, For<CoulombSpinProblem>, For<RollingProblem>>;
+using OfEachKind = typename OfProblems<Together, For, void DRUMLIN_EACH_DISC_PROBLEM(DRUMLIN_NEXT)>::type;
+#undef DRUMLIN_NEXT
 
 template <class Problem>
 using PointerTo = const Problem*;

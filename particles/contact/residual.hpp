@@ -36,7 +36,8 @@ struct ContactResidual {
 template <class Problem>
 double squared_error(const Problem& problem, int a, std::span<const double> r, std::span<const double> u) {
   constexpr int dim = Problem::dim;
-  return squared_error<dim>(problem.W.largest_eigenvalue(a), problem.mu.data() + (dim - 1) * a,
+  using Law = typename Problem::Law;
+  return squared_error<Law>(problem.W.largest_eigenvalue(a), problem.mu.data() + Law::coefficients * a,
                             r.data() + dim * a, u.data() + dim * a);
 }
 
@@ -97,17 +98,18 @@ constexpr bool of_discs = requires(const Problem& problem) {
   problem.W.inverse_mass;
 };
 
-/// e_a^2 of contacts from `first` on; on vectors where contacts of one or two unknowns push nothing but
-/// discs.
+/// e_a^2 of contacts from `first` on; on vectors where contacts of a plain law push nothing but discs.
 template <class Problem>
 void set_squared_errors(const Problem& problem, std::size_t first, std::span<const double> r,
                         std::span<const double> u, std::span<double> errors) {
   constexpr std::size_t dim = Problem::dim;
-  if constexpr (of_discs<Problem> && dim < 3)
+  using Law = typename Problem::Law;
+  if constexpr (of_discs<Problem> && is_plain<Law>)
     if (!problem.W.coupled())
-      return set_squared_errors<dim>(
-          Problem::Delassus::largest_in_W_nn, problem.W.inverse_W_nn.data() + first,
-          problem.mu.data() + (dim - 1) * first, r.data() + dim * first, u.data() + dim * first, errors);
+      return set_squared_errors<Law>(Problem::Delassus::largest_in_W_nn,
+                                     problem.W.inverse_W_nn.data() + first,
+                                     problem.mu.data() + Law::coefficients * first, r.data() + dim * first,
+                                     u.data() + dim * first, errors);
   for (std::size_t k = 0; k < errors.size(); ++k)
     errors[k] = squared_error(problem, static_cast<int>(first + k), r, u);
 }

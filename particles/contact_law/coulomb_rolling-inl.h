@@ -3,20 +3,14 @@
 // R_eff (omega_i - omega_j) with 1/R_eff = 1/r_i + 1/r_j, a wall counting as flat, so that r_r is an impulse
 // and R_eff r_r its couple (Estrada, Azema, Radjai, Taboada 2011).
 
-template <class N>
-struct InverseBlock<N, 3> {
-  N nn, tt, rr;  ///< 1 / W_nn, 1 / W_tt, 1 / W_rr; W_nt = W_nr = 0
-  N tr;          ///< W_tr itself
-  N tt_reduced;  ///< 1 / (W_tt - W_tr^2 / W_rr): friction with free rolling
-};
-
 /// The impulse that solves the contact with the others as they stand: first the normal, then friction and
 /// rolling together, the minimum of a strictly convex quadratic over a box: friction as if rolling were free,
 /// clamped; rolling for that, clamped; friction for that. Where friction leaves the box first, rolling along
 /// that edge is right, or friction along the edge of rolling is.
 template <class N>
-CONTACT_LAW std::array<N, 3> solved(const InverseBlock<N, 3>& W, const Coefficients<N, 3>& mu,
-                                    const std::array<N, 3>& u, const std::array<N, 3>& r) {
+CONTACT_LAW std::array<N, 3> solved(CoulombRolling, const InverseBlock<N, 3>& W,
+                                    const Coefficients<N, CoulombRolling>& mu, const std::array<N, 3>& u,
+                                    const std::array<N, 3>& r) {
   N n = positive_part(r[0] - u[0] * W.nn);
   if (const N most = larger(mu[0], mu[1]); any(steep(most), most)) {
     const N slide = step_fraction(mu[0], r[0], r[1], n, r[1] - u[1] * W.tt);
@@ -33,7 +27,8 @@ CONTACT_LAW std::array<N, 3> solved(const InverseBlock<N, 3>& W, const Coefficie
 /// n' - n - mu (|t| - mu n')+ - mu_r (|r| - mu_r n')+, rises and is the least of four lines (each of t and r
 /// clamped or not), so that its zero is the largest of theirs.
 template <class N>
-CONTACT_LAW std::array<N, 3> projected(const Coefficients<N, 3>& mu, const std::array<N, 3>& r) {
+CONTACT_LAW std::array<N, 3> projected(CoulombRolling, const Coefficients<N, CoulombRolling>& mu,
+                                       const std::array<N, 3>& r) {
   const N one = number<N>(1), mu_2 = mu[0] * mu[0], mu_r_2 = mu[1] * mu[1];
   const N with_t = mu[0] * absolute(r[1]), with_r = mu[1] * absolute(r[2]);
   N n = positive_part(r[0]);
@@ -45,27 +40,21 @@ CONTACT_LAW std::array<N, 3> projected(const Coefficients<N, 3>& mu, const std::
 
 /// r_n >= 0, then the others within the bounds that this gives.
 template <class N>
-CONTACT_LAW std::array<N, 3> bounded(const Coefficients<N, 3>& mu, const std::array<N, 3>& r) {
+CONTACT_LAW std::array<N, 3> bounded(CoulombRolling, const Coefficients<N, CoulombRolling>& mu,
+                                     const std::array<N, 3>& r) {
   const N n = positive_part(r[0]);
   return {n, clamped(r[1], mu[0] * n), clamped(r[2], mu[1] * n)};
 }
 
 /// As with friction alone; the shift of u_n is mu |u_t| + mu_r |u_r|.
 template <class N>
-CONTACT_LAW N squared_natural_residual(N rho, const Coefficients<N, 3>& mu, const std::array<N, 3>& r,
-                                       const std::array<N, 3>& u) {
+CONTACT_LAW N squared_natural_residual(CoulombRolling law, N rho, const Coefficients<N, CoulombRolling>& mu,
+                                       const std::array<N, 3>& r, const std::array<N, 3>& u) {
   const N t = r[1] - rho * u[1], roll = r[2] - rho * u[2];
   const N shifted = u[0] + mu[0] * absolute(u[1]) + mu[1] * absolute(u[2]);
-  N error = squared_distance(projected(mu, std::array<N, 3>{r[0] - rho * shifted, t, roll}), r);
+  N error = squared_distance(projected(law, mu, std::array<N, 3>{r[0] - rho * shifted, t, roll}), r);
   if (const N most = larger(mu[0], mu[1]); any(steep(most), most))
-    error = where(steep(most), squared_distance(bounded(mu, std::array<N, 3>{r[0] - rho * u[0], t, roll}), r),
-                  error);
+    error = where(steep(most),
+                  squared_distance(bounded(law, mu, std::array<N, 3>{r[0] - rho * u[0], t, roll}), r), error);
   return error;
-}
-
-/// The larger eigenvalue of the block of friction and rolling.
-template <class N>
-CONTACT_LAW N larger_eigenvalue(N W_tt, N W_tr, N W_rr) {
-  const N half = number<N>(0.5), mean = half * (W_tt + W_rr), off = half * (W_tt - W_rr);
-  return mean + square_root(off * off + W_tr * W_tr);
 }

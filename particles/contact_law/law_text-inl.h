@@ -5,13 +5,29 @@
 /// itself.
 inline constexpr double steep_friction = 1;
 
-/// Coefficients of a law of dim unknowns, one for each but the normal one.
-template <class N, std::size_t dim>
-using Coefficients = std::array<N, dim - 1>;
+/// Coefficients of a law, as contact_laws.h names them.
+template <class N, class Law>
+using Coefficients = std::array<N, static_cast<std::size_t>(Law::coefficients)>;
 
-/// What a law needs of W_aa, the contact's own block.
+/// What a law needs of W_aa, the contact's own block of dim rows.
 template <class N, std::size_t dim>
 struct InverseBlock;
+template <class N>
+struct InverseBlock<N, 1> {
+  N nn;  ///< 1 / W_nn
+};
+
+template <class N>
+struct InverseBlock<N, 2> {
+  N nn, tt;  ///< 1 / W_nn, 1 / W_tt; W_nt = 0, as of discs
+};
+
+template <class N>
+struct InverseBlock<N, 3> {
+  N nn, tt, rr;  ///< 1 / W_nn, 1 / W_tt, 1 / W_rr; W_nt = W_nr = 0
+  N tr;          ///< W_tr itself
+  N tt_reduced;  ///< 1 / (W_tt - W_tr^2 / W_rr): friction with free rolling
+};
 
 template <class N>
 CONTACT_LAW auto steep(N mu) {
@@ -25,7 +41,13 @@ CONTACT_LAW N squared_distance(const std::array<N, dim>& a, const std::array<N, 
   return sum;
 }
 
-#include "particles/contact_law/coulomb-inl.h"
-#include "particles/contact_law/coulomb_rolling-inl.h"
+/// The larger eigenvalue of the block of friction and rolling.
+template <class N>
+CONTACT_LAW N larger_eigenvalue(N W_tt, N W_tr, N W_rr) {
+  const N half = number<N>(0.5), mean = half * (W_tt + W_rr), off = half * (W_tt - W_rr);
+  return mean + square_root(off * off + W_tr * W_tr);
+}
+
 #include "particles/contact_law/disc_pair-inl.h"
-#include "particles/contact_law/frictionless-inl.h"
+// After it: they use it.
+#include "particles/contact_law/contact_laws.h"

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 
+#include "particles/contact_law/contact_laws.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace drumlin::particles::HWY_NAMESPACE::contact_law {
 

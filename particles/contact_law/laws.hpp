@@ -1,11 +1,12 @@
 #pragma once
-// The laws of one contact on numbers. The number of unknowns of a contact (1 without friction, 2 with it, 3
-// with a couple) is a property of the type, chosen once per solve: a scene without friction never
-// meets a branch about it.
+// The laws of one contact on numbers. The law of a problem is a type (contact_laws.h), chosen once per solve:
+// a scene without friction never meets a branch about it.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+
+#include "particles/contact_law/contact_laws.h"
 
 namespace drumlin::particles {
 

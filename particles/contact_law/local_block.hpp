@@ -54,14 +54,16 @@ struct LocalBlock {
 
 /// One contact solved with the others as they stand, exactly where W_nt = 0; else friction follows the step
 /// of the normal impulse, not the other way round. `u` are the velocities that belong to the impulses r.
-template <int dim>
-ContactNumbers<dim> solved(const LocalBlock<dim>& W, const contact_law::Coefficients<double, dim>& mu,
-                           ContactNumbers<dim> u, const ContactNumbers<dim>& r) {
-  auto fresh = contact_law::solved(W.inverse, mu, u, r);
-  if constexpr (dim >= 2)
+template <class Law>
+ContactNumbers<Law::unknowns> solved(Law law, const LocalBlock<Law::unknowns>& W,
+                                     const contact_law::Coefficients<double, Law>& mu,
+                                     ContactNumbers<Law::unknowns> u,
+                                     const ContactNumbers<Law::unknowns>& r) {
+  auto fresh = contact_law::solved(law, W.inverse, mu, u, r);
+  if constexpr (Law::unknowns >= 2)
     if (W.matrix.nt != 0) {
       u[1] += W.matrix.nt * (fresh[0] - r[0]);
-      fresh = contact_law::solved(W.inverse, mu, u, r);
+      fresh = contact_law::solved(law, W.inverse, mu, u, r);
     }
   return fresh;
 }

@@ -7,7 +7,7 @@
 //   modest(), modest_text: a strength to try, and the words for it
 // and what of this it needs
 //   check(scene, refuse): what it asks of the rest of the scene
-//   unknowns: of a contact, where these are more than one
+//   contact_law: that of contacts (contact_law/contact_laws.h); of several the last in the list
 //   account: its column of energy.csv
 //
 // A step goes through the laws of a scene, and calls those of these members that a law has:
@@ -16,11 +16,12 @@
 //   turn_freely(bodies, h): spins after a step without contacts
 //   attraction(pair, materials): a force that pulls two surfaces together, up to a gap of `range`
 //   friction(mu, sliding velocity, pair, materials): what becomes of the coefficient of friction
-//   lever(), couple_velocity(), couple_bound(), wall_part(): a couple, the third unknown of a contact
+//   coefficient(pair, materials): the second one of the contact law
+//   sliding_friction(mu, pair, materials): what becomes of it where the contact slides, or an impact begins
+//   lever(), couple_velocity(), wall_part(): a couple, the third unknown of a contact
 //   work(before, now, h): what a step gave the grains, beside the work of attraction and couple
 // A member that a law lacks costs nothing, nor does a law that the scene does not name: the compiler knows
 // which law has what.
-#include <algorithm>
 #include <optional>
 #include <type_traits>
 
@@ -29,6 +30,7 @@
 #include "particles/effects/dynamic_friction.hpp"
 #include "particles/effects/friction.hpp"
 #include "particles/effects/gravity.hpp"
+#include "particles/effects/kinetic_friction.hpp"
 #include "particles/effects/restitution.hpp"
 #include "particles/effects/rolling.hpp"
 #include "particles/effects/rotating_frame.hpp"
@@ -48,6 +50,7 @@ struct EffectsOf {
   Of<RotatingFrame> rotating_frame = {};
   Of<Drag> drag = {};
   Of<DynamicFriction> dynamic_friction = {};
+  Of<KineticFriction> kinetic_friction = {};
 };
 
 /// Calls visit(what each of the lists has for it) for one effect after the other.
@@ -62,6 +65,7 @@ void each_effect(Visit visit, Lists&&... lists) {
   visit(lists.rotating_frame...);
   visit(lists.drag...);
   visit(lists.dynamic_friction...);
+  visit(lists.kinetic_friction...);
 }
 
 /// What an effect does not have.
@@ -107,16 +111,19 @@ void each_account(Works& works, Visit visit) {
       works, Effects{});
 }
 
-/// Unknowns of a contact with these effects.
-inline int unknowns_of(const Effects& effects) {
-  int unknowns = 1;
+/// The law of contacts with these effects.
+inline ContactLaw contact_law_of(const Effects& effects) {
+  ContactLaw law = Frictionless{};
   each_effect(
-      [&unknowns]<class E>(const std::optional<E>& effect) {
-        if constexpr (requires { E::unknowns; })
-          if (effect) unknowns = std::max(unknowns, E::unknowns);
+      [&law]<class E>(const std::optional<E>& effect) {
+        if constexpr (requires { typename E::contact_law; })
+          if (effect) law = typename E::contact_law{};
       },
       effects);
-  return unknowns;
+  return law;
+}
+inline int unknowns_of(const ContactLaw& law) {
+  return std::visit([](auto own) { return own.unknowns; }, law);
 }
 
 }  // namespace drumlin::particles

@@ -1,6 +1,7 @@
 #pragma once
 // Coulomb friction: a tangential impulse |r_t| <= mu r_n that opposes sliding. One unknown more per contact.
 #include "coupling/core/documents/key_spec.hpp"
+#include "particles/contact_law/contact_laws.h"
 #include "particles/detection/candidate.hpp"
 #include "particles/effects/law_input.hpp"
 #include "particles/effects/pair_law.hpp"
@@ -10,7 +11,7 @@ namespace drumlin::particles {
 struct Friction : PairKeys<Friction> {
   static constexpr const char *name = "friction", *sentence = "Coulomb friction.";
   static constexpr const char* modest_text = "0.3";
-  static constexpr int unknowns = 2;
+  using contact_law = Coulomb;
   static Allowed allowed() { return at_least(0, 100); }
   static Friction modest() { return {{0.3, 0.3}}; }
 };

@@ -3,6 +3,7 @@
 // needs spin.
 #include "coupling/core/documents/key_spec.hpp"
 #include "particles/bodies/bodies.hpp"
+#include "particles/contact_law/contact_laws.h"
 #include "particles/detection/candidate.hpp"
 #include "particles/effects/law_input.hpp"
 #include "particles/effects/pair_law.hpp"
@@ -14,7 +15,7 @@ struct RollingResistance : PairKeys<RollingResistance> {
   static constexpr const char *name = "rolling_resistance",
                               *sentence = "A couple that opposes rolling; needs spin.";
   static constexpr const char *modest_text = "0.1", *account = "rolling";
-  static constexpr int unknowns = 3;
+  using contact_law = CoulombRolling;
   static Allowed allowed() { return at_least(0, 100); }
   static RollingResistance modest() { return {{0.1, 0.1}}; }
   void check(const auto& scene, auto refuse) const {
@@ -52,7 +53,7 @@ struct RollingLaw {
                                     : (1 - lever) * bodies.radius[pair.j] * bodies.spin[pair.j];
     return lever * bodies.radius[pair.i] * bodies.spin[pair.i] - rim_j;
   }
-  double couple_bound(const Candidate& pair, const MaterialsOf& materials) const {
+  double coefficient(const Candidate& pair, const MaterialsOf& materials) const {
     return value_of(mu_r, pair.i, pair.j, materials);
   }
 };

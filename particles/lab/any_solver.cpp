@@ -120,7 +120,7 @@ template <class Problem>
 ContactSolver<Problem> found(const std::string& name) {
   if (name == "nncg") return &solve_nncg<Problem>;
   if (name == "nlgs-scalar") return &solve_nlgs_scalar<Problem>;
-  if constexpr (Problem::dim < 3) {
+  if constexpr (is_plain<typename Problem::Law>) {
     if (name == "cpg") return &solve_cpg<Problem>;
     if (name == "reference") return &solve_reference<Problem>;
   }
@@ -158,7 +158,7 @@ std::vector<std::string> any_solver_names() {
 template <class Problem>
 ContactSolver<Problem> any_solver(const std::string& name) {
   if (const auto solver = found<Problem>(name)) return solver;
-  throw InputError({InputProblem{"", 0, 0, "solver", "'" + name + "' knows no couples at contacts",
+  throw InputError({InputProblem{"", 0, 0, "solver", "'" + name + "' knows no law beyond Coulomb's",
                                  "accelerated, accelerated-double, nlgs, nncg, nlgs-scalar"}});
 }
 
@@ -167,10 +167,10 @@ ContactSolvers any_solvers(const std::string& name) {
                     ContactSolvers{});
 }
 
-#define DRUMLIN_INSTANTIATE(Problem, dim, spin) \
+#define DRUMLIN_INSTANTIATE(Problem, Law, spin) \
   template ContactSolver<Problem> any_solver(const std::string&);
 DRUMLIN_EACH_DISC_PROBLEM(DRUMLIN_INSTANTIATE)
-DRUMLIN_INSTANTIATE(BlockProblem, 2, )
+DRUMLIN_INSTANTIATE(BlockProblem, Coulomb, )
 #undef DRUMLIN_INSTANTIATE
 
 }  // namespace drumlin::particles

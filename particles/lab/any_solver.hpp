@@ -45,8 +45,4 @@ template <class Problem>
 SolveReport solve_reference(const Problem&, const StoppingRule&, SolverWorkspace<Problem>&,
                             Solution<Problem>&);
 
-// The problems that `cpg` and `reference` know.
-#define DRUMLIN_EACH_PROBLEM_WITHOUT_COUPLES(X) \
-  X(FrictionlessProblem) X(CoulombProblem) X(CoulombSpinProblem) X(BlockProblem)
-
 }  // namespace drumlin::particles

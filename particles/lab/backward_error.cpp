@@ -38,7 +38,8 @@ std::vector<double> natural_image(const BlockProblem& problem, std::span<const d
   for (int a = 0; a < problem.contacts(); ++a) {
     const double rho = 1 / problem.W.largest_eigenvalue(a), mu = problem.mu[a];
     const double n = r[2 * a] - rho * (u[2 * a] + mu * std::abs(u[2 * a + 1]));
-    const auto nearest = contact_law::projected({mu}, std::array{n, r[2 * a + 1] - rho * u[2 * a + 1]});
+    const auto nearest =
+        contact_law::projected(Coulomb{}, {mu}, std::array{n, r[2 * a + 1] - rho * u[2 * a + 1]});
     image[2 * a] = nearest[0], image[2 * a + 1] = nearest[1];
   }
   return image;

@@ -28,7 +28,7 @@ void BlockDelassus::velocities(std::span<const double> r, std::span<const double
   }
 }
 
-ContactNumbers<2> BlockDelassus::solved(int a, const contact_law::Coefficients<double, 2>& mu,
+ContactNumbers<2> BlockDelassus::solved(Coulomb, int a, const contact_law::Coefficients<double, Coulomb>& mu,
                                         const ContactNumbers<2>& u, const ContactNumbers<2>& r) const {
   const Eigen::Vector2d old(r[0], r[1]);
   const Eigen::Vector2d fresh =

@@ -29,14 +29,14 @@ class BlockDelassus {
   /// The part of W r in u of contact a.
   ContactNumbers<2> relative_velocity(const State& state, int a) const;
   /// Contact a solved with the others as they stand: u are the velocities that belong to its impulses r.
-  ContactNumbers<2> solved(int a, const contact_law::Coefficients<double, 2>& mu, const ContactNumbers<2>& u,
-                           const ContactNumbers<2>& r) const;
+  ContactNumbers<2> solved(Coulomb, int a, const contact_law::Coefficients<double, Coulomb>& mu,
+                           const ContactNumbers<2>& u, const ContactNumbers<2>& r) const;
   void push(State& state, int a, const ContactNumbers<2>& dr) const {
     for (int e = 0; e < 2; ++e) state[2 * a + e] += dr[e];
   }
   static std::span<double> numbers(State& state) { return state; }
 };
 
-using BlockProblem = ContactProblem<BlockDelassus>;  ///< from a file
+using BlockProblem = ContactProblem<BlockDelassus, Coulomb>;  ///< from a file
 
 }  // namespace drumlin::particles

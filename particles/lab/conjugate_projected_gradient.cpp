@@ -86,7 +86,7 @@ class ProjectedGradient {
     if constexpr (dim == 2)
       for (int a = 0; a < problem_.contacts(); ++a)
         work_.in_cone[2 * a + 1] =
-            contact_law::bounded({problem_.mu[a]}, std::array{r_[2 * a], r_[2 * a + 1]})[1];
+            contact_law::bounded(Coulomb{}, {problem_.mu[a]}, std::array{r_[2 * a], r_[2 * a + 1]})[1];
     return work_.in_cone;
   }
 
@@ -251,10 +251,11 @@ SolveReport solve_cpg(const Problem& problem, const StoppingRule& rule, SolverWo
   }
 }
 
-#define DRUMLIN_INSTANTIATE(Problem)                                                             \
+#define DRUMLIN_INSTANTIATE(Problem, ...)                                                        \
   template SolveReport solve_cpg(const Problem&, const StoppingRule&, SolverWorkspace<Problem>&, \
                                  Solution<Problem>&);
-DRUMLIN_EACH_PROBLEM_WITHOUT_COUPLES(DRUMLIN_INSTANTIATE)
+DRUMLIN_EACH_PLAIN_PROBLEM(DRUMLIN_INSTANTIATE)
+DRUMLIN_INSTANTIATE(BlockProblem)
 #undef DRUMLIN_INSTANTIATE
 
 }  // namespace drumlin::particles

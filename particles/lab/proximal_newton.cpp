@@ -70,7 +70,7 @@ void ProximalNewton<Problem>::answer(int a) {
     const bool sticks = std::abs(r_t) < problem_.mu[a] * answer_[2 * a];
     D.tt = sticks ? k_t : 0;
     D.tn = sticks ? 0 : std::copysign(problem_.mu[a] * D.nn, r_t);
-    answer_[2 * a + 1] = contact_law::bounded({problem_.mu[a]}, std::array{r_n, r_t})[1];
+    answer_[2 * a + 1] = contact_law::bounded(Coulomb{}, {problem_.mu[a]}, std::array{r_n, r_t})[1];
   }
 }
 

@@ -159,10 +159,11 @@ SolveReport solve_reference(const Problem& problem, const StoppingRule& rule, So
   return ReferenceSolve<Problem>(problem, rule, work, solution).execute();
 }
 
-#define DRUMLIN_INSTANTIATE(Problem)                                                                   \
+#define DRUMLIN_INSTANTIATE(Problem, ...)                                                              \
   template SolveReport solve_reference(const Problem&, const StoppingRule&, SolverWorkspace<Problem>&, \
                                        Solution<Problem>&);
-DRUMLIN_EACH_PROBLEM_WITHOUT_COUPLES(DRUMLIN_INSTANTIATE)
+DRUMLIN_EACH_PLAIN_PROBLEM(DRUMLIN_INSTANTIATE)
+DRUMLIN_INSTANTIATE(BlockProblem)
 #undef DRUMLIN_INSTANTIATE
 
 }  // namespace drumlin::particles

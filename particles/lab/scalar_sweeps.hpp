@@ -34,7 +34,7 @@ double sweep(const Problem& problem, SweptImpulses<Problem>& swept) {
     const auto old = contact_law::numbers_at<dim>(&swept.r[dim * a]);
     auto u = problem.W.relative_velocity(swept.state, a);
     for (int e = 0; e < dim; ++e) u[e] += problem.q[dim * a + e];
-    const auto fresh = problem.W.solved(a, problem.coefficients(a), u, old);
+    const auto fresh = problem.W.solved(typename Problem::Law{}, a, problem.coefficients(a), u, old);
     auto step = fresh;
     for (int e = 0; e < dim; ++e) {
       step[e] -= old[e];

@@ -9,27 +9,17 @@
 #include "particles/solver/body_vectors-inl.h"
 #include "particles/solver/coarse_kernels.hpp"
 
-// Calls DO(precision, name, dim, spin) for the kinds of problems that are corrected.
-#undef DRUMLIN_EACH_KIND
-#define DRUMLIN_EACH_KIND(DO)           \
-  DO(double, double_smooth, 1, false)   \
-  DO(double, double_friction, 2, false) \
-  DO(double, double_spin, 2, true)      \
-  DO(float, float_smooth, 1, false)     \
-  DO(float, float_friction, 2, false)   \
-  DO(float, float_spin, 2, true)
-
 HWY_BEFORE_NAMESPACE();
 namespace drumlin::particles::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <class T, int dim, bool spin>
-void add_contacts(const ContactBlock<T, dim>* blocks, std::size_t count, const BodyRecord<T>* bodies,
+template <class T, class Law, bool spin>
+void add_contacts(const ContactBlock<T, Law>* blocks, std::size_t count, const BodyRecord<T>* bodies,
                   const CoarseBodies<T>& coarse) {
   const Lanes<T> d;
   using V = hn::Vec<Lanes<T>>;
-  constexpr std::size_t width = ContactBlock<T, dim>::width;
+  constexpr std::size_t width = ContactBlock<T, Law>::width;
 
   const V zero = hn::Zero(d);
   for (std::size_t b = 0; b < count; ++b) {
@@ -43,12 +33,12 @@ void add_contacts(const ContactBlock<T, dim>* blocks, std::size_t count, const B
       const V dv_x = hn::Sub(I.x, J.x), dv_z = hn::Sub(I.z, J.z);
       const V u_n = hn::Add(hn::Load(d, &block.q[0][k]), hn::Add(hn::Mul(n_x, dv_x), hn::Mul(n_z, dv_z)));
       V power = hn::Mul(r_n, u_n), p_x = hn::Mul(n_x, r_n), p_z = hn::Mul(n_z, r_n), couple = zero;
-      if constexpr (dim == 2) {
+      if constexpr (Law::unknowns == 2) {
         const V r_t = hn::Load(d, &block.r[1][k]);
         V slip = hn::Sub(hn::Mul(n_z, dv_x), hn::Mul(n_x, dv_z));
         if constexpr (spin) slip = hn::Sub(slip, hn::Add(I.s, J.s)), couple = hn::Add(r_t, r_t);
         const V u_t = hn::Add(hn::Load(d, &block.q[1][k]), slip);
-        const V taken = contact_law::sliding_power<V>({hn::Load(d, &block.mu[k])}, {r_n, r_t}, {u_n, u_t});
+        const V taken = contact_law::sliding_power<V>({hn::Load(d, &block.mu[0][k])}, {r_n, r_t}, {u_n, u_t});
         power = hn::Add(power, hn::Add(hn::Mul(r_t, u_t), taken));
         p_x = hn::Add(p_x, hn::Mul(n_z, r_t)), p_z = hn::Sub(p_z, hn::Mul(n_x, r_t));
       }
@@ -70,15 +60,15 @@ void add_contacts(const ContactBlock<T, dim>* blocks, std::size_t count, const B
   }
 }
 
-template <class T, int dim>
-void scale(ContactBlock<T, dim>* blocks, std::size_t count, const BodyRecord<T>* factors) {
+template <class T, class Law>
+void scale(ContactBlock<T, Law>* blocks, std::size_t count, const BodyRecord<T>* factors) {
   const Lanes<T> d;
-  constexpr std::size_t width = ContactBlock<T, dim>::width;
+  constexpr std::size_t width = ContactBlock<T, Law>::width;
   for (std::size_t b = 0; b < count; ++b) {
     auto& block = blocks[b];
     for (std::size_t k = 0; k < width; k += hn::Lanes(d)) {
       const auto factor = load_bodies(factors, &block.i[k]).s;
-      for (std::size_t e = 0; e < dim; ++e) {
+      for (std::size_t e = 0; e < Law::unknowns; ++e) {
         const auto r = hn::Mul(hn::Load(d, &block.r[e][k]), factor);
         hn::Store(r, d, &block.r[e][k]), hn::Store(r, d, &block.before[e][k]);
       }
@@ -136,16 +126,19 @@ void terms(const BodyRecord<T>* bodies, const CoarseBodies<T>& coarse, const std
   }
 }
 
-#define DRUMLIN_KERNELS(T, name, dim, spin)                                             \
-  void add_##name(const ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* v, \
-                  const CoarseBodies<T>& c) {                                           \
-    add_contacts<T, dim, spin>(b, n, v, c);                                             \
-  }                                                                                     \
-  void scale_##name(ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* f) {   \
-    scale<T, dim>(b, n, f);                                                             \
+#define DRUMLIN_KERNELS_OF(T, Problem, Law, spin)                                                \
+  void add_##T##_##Problem(const ContactBlock<T, Law>* b, std::size_t n, const BodyRecord<T>* v, \
+                           const CoarseBodies<T>& c) {                                           \
+    add_contacts<T, Law, spin>(b, n, v, c);                                                      \
+  }                                                                                              \
+  void scale_##T##_##Problem(ContactBlock<T, Law>* b, std::size_t n, const BodyRecord<T>* f) {   \
+    scale<T, Law>(b, n, f);                                                                      \
   }
-DRUMLIN_EACH_KIND(DRUMLIN_KERNELS)
+#define DRUMLIN_KERNELS(Problem, Law, spin) \
+  DRUMLIN_KERNELS_OF(double, Problem, Law, spin) DRUMLIN_KERNELS_OF(float, Problem, Law, spin)
+DRUMLIN_EACH_PLAIN_PROBLEM(DRUMLIN_KERNELS)
 #undef DRUMLIN_KERNELS
+#undef DRUMLIN_KERNELS_OF
 
 void terms_double(const BodyRecord<double>* v, const CoarseBodies<double>& c, const std::uint32_t* places,
                   double last_column, double last_row, CoarseTerms<double>& found) {
@@ -181,20 +174,23 @@ DRUMLIN_DISPATCH(double)
 DRUMLIN_DISPATCH(float)
 #undef DRUMLIN_DISPATCH
 
-#define DRUMLIN_DISPATCH(T, name, dim, spin)                                                                \
-  HWY_EXPORT(add_##name);                                                                                   \
-  HWY_EXPORT(scale_##name);                                                                                 \
+#define DRUMLIN_DISPATCH_OF(T, Problem, Law, spin)                                                          \
+  HWY_EXPORT(add_##T##_##Problem);                                                                          \
+  HWY_EXPORT(scale_##T##_##Problem);                                                                        \
   template <>                                                                                               \
-  void CoarseKernels<T, dim, spin>::add_contacts(                                                           \
+  void CoarseKernels<T, Law, spin>::add_contacts(                                                           \
       const Block* blocks, std::size_t count, const BodyRecord<T>* bodies, const CoarseBodies<T>& coarse) { \
-    HWY_DYNAMIC_DISPATCH(add_##name)(blocks, count, bodies, coarse);                                        \
+    HWY_DYNAMIC_DISPATCH(add_##T##_##Problem)(blocks, count, bodies, coarse);                               \
   }                                                                                                         \
   template <>                                                                                               \
-  void CoarseKernels<T, dim, spin>::scale(Block* blocks, std::size_t count, const BodyRecord<T>* factors) { \
-    HWY_DYNAMIC_DISPATCH(scale_##name)(blocks, count, factors);                                             \
+  void CoarseKernels<T, Law, spin>::scale(Block* blocks, std::size_t count, const BodyRecord<T>* factors) { \
+    HWY_DYNAMIC_DISPATCH(scale_##T##_##Problem)(blocks, count, factors);                                    \
   }
-DRUMLIN_EACH_KIND(DRUMLIN_DISPATCH)
+#define DRUMLIN_DISPATCH(Problem, Law, spin) \
+  DRUMLIN_DISPATCH_OF(double, Problem, Law, spin) DRUMLIN_DISPATCH_OF(float, Problem, Law, spin)
+DRUMLIN_EACH_PLAIN_PROBLEM(DRUMLIN_DISPATCH)
 #undef DRUMLIN_DISPATCH
+#undef DRUMLIN_DISPATCH_OF
 
 }  // namespace drumlin::particles
 #endif  // HWY_ONCE

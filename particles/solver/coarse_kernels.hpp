@@ -130,9 +130,9 @@ void each_coarse_term(const FieldGrid& grid, const CoarseTerms<T>& terms, std::s
   for (int k = 0; k < 4; ++k) power(grid.corner(cell, k), terms.powers[k][b]);
 }
 
-template <class T, int dim, bool spin>
+template <class T, class Law, bool spin>
 struct CoarseKernels {
-  using Block = ContactBlock<T, dim>;
+  using Block = ContactBlock<T, Law>;
   /// Adds what contacts do to S_x, S_z and powers.
   static void add_contacts(const Block* blocks, std::size_t count, const BodyRecord<T>* bodies,
                            const CoarseBodies<T>&);

@@ -33,9 +33,9 @@ double longest_contact(std::span<const std::int32_t> i, std::span<const std::int
 
 }  // namespace
 
-template <class T, int dim, bool spin>
+template <class T, class Law, bool spin>
 void CoarseLoads::lay_out(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
-                          const BodyPlaces& places, const StripProblem<T, dim, spin>& strips,
+                          const BodyPlaces& places, const StripProblem<T, Law, spin>& strips,
                           const TeamLoops& loops) {
   const auto [x_low, x_high] = std::minmax_element(places.x.begin(), places.x.end());
   const auto [z_low, z_high] = std::minmax_element(places.z.begin(), places.z.end());
@@ -50,17 +50,17 @@ void CoarseLoads::lay_out(std::span<const std::int32_t> i, std::span<const std::
 }
 
 /// The contacts of a phase of a strip.
-template <class T, int dim, bool spin>
-void CoarseLoads::add_contacts(StripProblem<T, dim, spin>& strips, int strip, int phase) {
+template <class T, class Law, bool spin>
+void CoarseLoads::add_contacts(StripProblem<T, Law, spin>& strips, int strip, int phase) {
   const auto blocks = strips.blocks(strip, phase);
-  CoarseKernels<T, dim, spin>::add_contacts(blocks.data(), blocks.size(), strips.bodies().data(),
+  CoarseKernels<T, Law, spin>::add_contacts(blocks.data(), blocks.size(), strips.bodies().data(),
                                             records_.of<T>().bodies());
 }
 
 /// The bodies of a strip. Most of those in a row are in one cell: their terms are added up before they go to
 /// the nodes.
-template <class T, int dim, bool spin>
-void CoarseLoads::add_bodies(const StripProblem<T, dim, spin>& strips, int strip, int part) {
+template <class T, class Law, bool spin>
+void CoarseLoads::add_bodies(const StripProblem<T, Law, spin>& strips, int strip, int part) {
   const auto [begin, end] = strips.records(strip);
   double *const rows = &rows_[part * this->rows()],
                 *const work = &work_[part * static_cast<std::size_t>(grid_.nodes())];
@@ -95,16 +95,16 @@ void CoarseLoads::add_bodies(const StripProblem<T, dim, spin>& strips, int strip
   end_sums();
 }
 
-template <class T, int dim, bool spin>
-void CoarseLoads::exchange(StripProblem<T, dim, spin>& strips, int phase) {
+template <class T, class Law, bool spin>
+void CoarseLoads::exchange(StripProblem<T, Law, spin>& strips, int phase) {
   auto& own = records_.of<T>();
   for (auto* records : {&own.at, &own.along_x, &own.along_z}) strips.exchange(phase, *records);
 }
 
 /// Strip by strip, as long as what a strip moves is in the caches. The second slice of a part's last strip
 /// touches the first one of the next part, and waits until the parts are done.
-template <class T, int dim, bool spin>
-void CoarseLoads::add_up(StripProblem<T, dim, spin>& strips, const TeamLoops& loops) {
+template <class T, class Law, bool spin>
+void CoarseLoads::add_up(StripProblem<T, Law, spin>& strips, const TeamLoops& loops) {
   const auto [first_part, end_part] = strips.own_parts();
   const auto rest = [&](int strip) {
     const auto [begin, end] = strips.records(strip);
@@ -146,9 +146,9 @@ std::vector<double> CoarseLoads::solve() const {
   return solve_field(grid_, rows, right);
 }
 
-template <class T, int dim, bool spin>
-bool CoarseLoads::scale(StripProblem<T, dim, spin>& strips, const TeamLoops& loops) {
-  constexpr std::size_t parts = StripProblem<T, dim, spin>::parts;
+template <class T, class Law, bool spin>
+bool CoarseLoads::scale(StripProblem<T, Law, spin>& strips, const TeamLoops& loops) {
+  constexpr std::size_t parts = StripProblem<T, Law, spin>::parts;
   work_.assign(parts * grid_.nodes(), 0.0);
   rows_.assign(parts * rows(), 0.0);
   add_up(strips, loops);
@@ -164,23 +164,21 @@ bool CoarseLoads::scale(StripProblem<T, dim, spin>& strips, const TeamLoops& loo
   loops.each_of(last - first, [&, first = first](int k) {
     for (const int phase : {0, 1}) {
       const auto blocks = strips.blocks(first + k, phase);
-      CoarseKernels<T, dim, spin>::scale(blocks.data(), blocks.size(), own.at.data());
+      CoarseKernels<T, Law, spin>::scale(blocks.data(), blocks.size(), own.at.data());
     }
   });
   return true;
 }
 
-#define DRUMLIN_INSTANTIATE(T, dim, spin)                                                          \
-  template bool CoarseLoads::scale(StripProblem<T, dim, spin>&, const TeamLoops&);                 \
+#define DRUMLIN_INSTANTIATE_IN(T, Law, spin)                                                       \
+  template bool CoarseLoads::scale(StripProblem<T, Law, spin>&, const TeamLoops&);                 \
   template void CoarseLoads::lay_out(std::span<const std::int32_t>, std::span<const std::int32_t>, \
-                                     const BodyPlaces&, const StripProblem<T, dim, spin>&,         \
+                                     const BodyPlaces&, const StripProblem<T, Law, spin>&,         \
                                      const TeamLoops&);
-DRUMLIN_INSTANTIATE(float, 1, false)
-DRUMLIN_INSTANTIATE(float, 2, false)
-DRUMLIN_INSTANTIATE(float, 2, true)
-DRUMLIN_INSTANTIATE(double, 1, false)
-DRUMLIN_INSTANTIATE(double, 2, false)
-DRUMLIN_INSTANTIATE(double, 2, true)
+#define DRUMLIN_INSTANTIATE(Problem, Law, spin) \
+  DRUMLIN_INSTANTIATE_IN(float, Law, spin) DRUMLIN_INSTANTIATE_IN(double, Law, spin)
+DRUMLIN_EACH_PLAIN_PROBLEM(DRUMLIN_INSTANTIATE)
 #undef DRUMLIN_INSTANTIATE
+#undef DRUMLIN_INSTANTIATE_IN
 
 }  // namespace drumlin::particles

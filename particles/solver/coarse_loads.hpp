@@ -30,7 +30,7 @@ inline constexpr int least_contacts_of_coarse_loads = 50000;
 /// Sweeps between two corrections.
 inline constexpr int sweeps_between_coarse_loads = 40;
 
-template <class T, int dim, bool spin>
+template <class T, class Law, bool spin>
 class StripProblem;
 
 /// Scales impulses; keeps workspace only.
@@ -40,25 +40,25 @@ class CoarseLoads {
   void use(WorkMemory* memory) { records_.use(memory); }
   /// Lays the nodes of the field over the bodies of the contacts (i, j), which have been packed in strips;
   /// body positions.x.size() is the fixed one.
-  template <class T, int dim, bool spin>
+  template <class T, class Law, bool spin>
   void lay_out(std::span<const std::int32_t> i, std::span<const std::int32_t> j, const BodyPlaces& places,
-               const StripProblem<T, dim, spin>&, const TeamLoops&);
+               const StripProblem<T, Law, spin>&, const TeamLoops&);
   /// Scales the impulses of the strips that were laid out each by a factor between 1/2 and 2,
   /// as impulses and bodies stand. False, and nothing scaled, where there is no good field. The result does
   /// not depend on the team of the loops.
-  template <class T, int dim, bool spin>
-  bool scale(StripProblem<T, dim, spin>&, const TeamLoops&);
+  template <class T, class Law, bool spin>
+  bool scale(StripProblem<T, Law, spin>&, const TeamLoops&);
 
  private:
-  template <class T, int dim, bool spin>
-  void add_contacts(StripProblem<T, dim, spin>&, int strip, int phase);
-  template <class T, int dim, bool spin>
-  void add_bodies(const StripProblem<T, dim, spin>&, int strip, int part);
-  template <class T, int dim, bool spin>
-  void exchange(StripProblem<T, dim, spin>&, int phase);
+  template <class T, class Law, bool spin>
+  void add_contacts(StripProblem<T, Law, spin>&, int strip, int phase);
+  template <class T, class Law, bool spin>
+  void add_bodies(const StripProblem<T, Law, spin>&, int strip, int part);
+  template <class T, class Law, bool spin>
+  void exchange(StripProblem<T, Law, spin>&, int phase);
   /// The sums of work_ and rows_.
-  template <class T, int dim, bool spin>
-  void add_up(StripProblem<T, dim, spin>&, const TeamLoops&);
+  template <class T, class Law, bool spin>
+  void add_up(StripProblem<T, Law, spin>&, const TeamLoops&);
   std::vector<double> solve() const;
 
   FieldGrid grid_;

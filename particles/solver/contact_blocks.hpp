@@ -13,9 +13,10 @@ namespace drumlin::particles {
 
 /// Position k of a block becomes contact c of a problem, between the records i and j, with the impulses r of
 /// the problem; with c = -1 a contact between these records that does nothing.
-template <class T, int dim, class Problem>
+template <class T, class Law, class Problem>
 void set_place(const Problem& problem, std::int32_t c, std::int32_t i, std::int32_t j,
-               std::span<const double> r, ContactBlock<T, dim>& block, std::size_t k) {
+               std::span<const double> r, ContactBlock<T, Law>& block, std::size_t k) {
+  constexpr int dim = Law::unknowns, coefficients = Law::coefficients;
   const auto& W = problem.W;
   const auto number = [c](double value) { return c >= 0 ? static_cast<T>(value) : T(0); };
   const std::int32_t a = std::max(c, 0);
@@ -27,10 +28,11 @@ void set_place(const Problem& problem, std::int32_t c, std::int32_t i, std::int3
     block.q[e][k] = number(problem.q[dim * a + e]);
     block.r[e][k] = block.before[e][k] = number(r[dim * a + e]);
   }
-  if constexpr (dim >= 2) block.mu[k] = number(problem.mu[(dim - 1) * a]);
+  if constexpr (coefficients > 0)
+    for (int e = 0; e < coefficients; ++e) block.mu[e][k] = number(problem.mu[coefficients * a + e]);
   if constexpr (dim == 3) {
     const auto inverse = W.block(a).inverse;
-    block.mu_r[k] = number(problem.mu[2 * a + 1]), block.lever[k] = number(W.lever[a]);
+    block.lever[k] = number(W.lever[a]);
     block.inverse_W_rr[k] = number(inverse.rr), block.inverse_W_tt[k] = number(inverse.tt_reduced);
   }
 }
@@ -40,8 +42,7 @@ void set_place(const Problem& problem, std::int32_t c, std::int32_t i, std::int3
 template <class Problem, std::size_t dim>
 void hold_to_cone(const Problem& problem, std::int32_t c, const std::array<double, dim>& impulses,
                   std::vector<double>& r) {
-  using namespace contact_law;
-  const auto held = bounded(numbers_at<dim - 1>(problem.mu.data() + (dim - 1) * c), impulses);
+  const auto held = contact_law::bounded(typename Problem::Law{}, problem.coefficients(c), impulses);
   std::copy(held.begin(), held.end(), r.begin() + dim * c);
 }
 

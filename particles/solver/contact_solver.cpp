@@ -76,7 +76,7 @@ ContactSolvers contact_solvers(const std::string& name) {
       ContactSolvers{});
 }
 
-#define DRUMLIN_INSTANTIATE(Problem, dim, spin)                                                          \
+#define DRUMLIN_INSTANTIATE(Problem, Law, spin)                                                          \
   template SolveReport solve_accelerated(const Problem&, const StoppingRule&, SolverWorkspace<Problem>&, \
                                          Solution<Problem>&);                                            \
   template SolveReport solve_accelerated_double(const Problem&, const StoppingRule&,                     \

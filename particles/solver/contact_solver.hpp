@@ -13,12 +13,12 @@
 namespace drumlin::particles {
 
 /// Work space of sweeps in strips; problems that are not of discs have none.
-template <class Delassus>
+template <class Problem>
 struct StripWorkspace {};
-template <int dim, bool spin>
-struct StripWorkspace<DiscDelassus<dim, spin>> {
-  StripProblem<double, dim, spin> in_double;
-  StripProblem<float, dim, spin> in_single;
+template <int dim, bool spin, class Law>
+struct StripWorkspace<ContactProblem<DiscDelassus<dim, spin>, Law>> {
+  StripProblem<double, Law, spin> in_double;
+  StripProblem<float, Law, spin> in_single;
   SweepPlan plan;  ///< of a problem that brings none
   std::vector<std::int32_t> order;
 };
@@ -27,7 +27,7 @@ struct StripWorkspace<DiscDelassus<dim, spin>> {
 /// never read, and nothing in it is a result.
 template <class Problem>
 struct SolverWorkspace {
-  StripWorkspace<typename Problem::Delassus> strips;
+  StripWorkspace<Problem> strips;
   CoarseLoads coarse;
   BodyPlaces places;  ///< of the bodies of the problem, for `coarse`; none: large problems do without
   WorkMemory* memory = nullptr;  ///< for what a solve needs until it ends; none: it is kept

@@ -201,7 +201,8 @@ class Neighbourhood {
     const auto r = solve_by_pivots(W, own_u - W * own_r, mu, most_pivots * static_cast<int>(cluster.size()));
     if (!r) return false;
     for (std::size_t k = 0; k < cluster.size(); ++k) {
-      const auto held = contact_law::bounded({mu[k]}, contact_law::numbers_at<2>(r->data() + 2 * k));
+      const auto held =
+          contact_law::bounded(Coulomb{}, {mu[k]}, contact_law::numbers_at<2>(r->data() + 2 * k));
       for (const int c : {0, 1}) {
         push(bodies, cluster[k], c, held[c] - own_r[2 * k + c]);
         solution.impulses[2 * cluster[k] + c] = held[c];

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <optional>
 #include <span>
+#include <type_traits>
 
 #include "particles/contact/solution.hpp"
 #include "particles/solver/stopping_rule.hpp"
@@ -21,9 +22,9 @@ namespace drumlin::particles {
 std::optional<Eigen::VectorXd> solve_by_pivots(Eigen::MatrixXd W, Eigen::VectorXd q,
                                                std::span<const double> mu, int most_pivots);
 
-/// Problems whose contacts settle_clusters() takes: with friction, without rolling resistance.
+/// Problems whose contacts settle_clusters() takes: those of Coulomb's law.
 template <class Problem>
-constexpr bool has_pivots = Problem::dim == 2;
+constexpr bool has_pivots = std::is_same_v<typename Problem::Law, Coulomb>;
 
 /// Solves contacts that miss the rule's tolerance, with those around them, in clusters of some ten contacts,
 /// the others as they stand, again and again while that helps. Takes and leaves a solution with its

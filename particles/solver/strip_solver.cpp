@@ -9,9 +9,9 @@
 
 namespace drumlin::particles {
 
-template <class T, int dim, bool spin>
+template <class T, class Law, bool spin>
 template <class Problem>
-void StripProblem<T, dim, spin>::pack_bodies(const Problem& problem, const SweepPlan& plan) {
+void StripProblem<T, Law, spin>::pack_bodies(const Problem& problem, const SweepPlan& plan) {
   const auto& W = problem.W;
   driven_bodies_ = 0;
   for (int k = 0; k < plan.strips(); ++k) {
@@ -38,9 +38,9 @@ void StripProblem<T, dim, spin>::pack_bodies(const Problem& problem, const Sweep
   std::fill(bodies_.begin() + driven_bodies_, bodies_.end(), BodyRecord<T>{});
 }
 
-template <class T, int dim, bool spin>
+template <class T, class Law, bool spin>
 template <class Problem>
-void StripProblem<T, dim, spin>::pack_place(const Problem& problem, std::int32_t c, std::int32_t fixed,
+void StripProblem<T, Law, spin>::pack_place(const Problem& problem, std::int32_t c, std::int32_t fixed,
                                             std::span<const double> r, std::size_t place) {
   const auto& W = problem.W;
   const auto k = static_cast<std::int32_t>(place % Block::width);
@@ -50,9 +50,9 @@ void StripProblem<T, dim, spin>::pack_place(const Problem& problem, std::int32_t
   set_place(problem, c, i, j, r, blocks_[place / Block::width], k);
 }
 
-template <class T, int dim, bool spin>
+template <class T, class Law, bool spin>
 template <class Problem>
-void StripProblem<T, dim, spin>::pack_driven(const Problem& problem, std::int32_t c,
+void StripProblem<T, Law, spin>::pack_driven(const Problem& problem, std::int32_t c,
                                              std::span<const double> r) {
   const auto& W = problem.W;
   auto& contact = driven_.emplace_back();
@@ -68,9 +68,9 @@ void StripProblem<T, dim, spin>::pack_driven(const Problem& problem, std::int32_
   }
 }
 
-template <class T, int dim, bool spin>
+template <class T, class Law, bool spin>
 template <class Problem>
-void StripProblem<T, dim, spin>::lay_out(const Problem& problem, const SweepPlan& plan,
+void StripProblem<T, Law, spin>::lay_out(const Problem& problem, const SweepPlan& plan,
                                          std::span<const std::int32_t> order, std::span<const double> r) {
   constexpr int width = Block::width;
   std::size_t blocks = 0;
@@ -98,9 +98,9 @@ void StripProblem<T, dim, spin>::lay_out(const Problem& problem, const SweepPlan
   kept_.renew(blocks);
 }
 
-template <class T, int dim, bool spin>
+template <class T, class Law, bool spin>
 template <class Problem>
-void StripProblem<T, dim, spin>::pack_strip(const Problem& problem, const SweepPlan& plan,
+void StripProblem<T, Law, spin>::pack_strip(const Problem& problem, const SweepPlan& plan,
                                             std::span<const std::int32_t> order, std::span<const double> r,
                                             int strip) {
   constexpr int width = Block::width;
@@ -117,9 +117,9 @@ void StripProblem<T, dim, spin>::pack_strip(const Problem& problem, const SweepP
   }
 }
 
-template <class T, int dim, bool spin>
+template <class T, class Law, bool spin>
 template <class Problem>
-void StripProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& plan,
+void StripProblem<T, Law, spin>::pack(const Problem& problem, const SweepPlan& plan,
                                       std::span<const std::int32_t> order, std::span<const double> r,
                                       const TeamLoops& loops, World* world) {
   const int strip_count = plan.strips();
@@ -142,8 +142,8 @@ void StripProblem<T, dim, spin>::pack(const Problem& problem, const SweepPlan& p
                                  static_cast<std::size_t>(dim));
 }
 
-template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::share(World* world) {
+template <class T, class Law, bool spin>
+void StripProblem<T, Law, spin>::share(World* world) {
   constexpr int least_strips = 2;
   rank_ = world != nullptr ? world->rank() : 0;
   const auto have_some = [&] {
@@ -160,9 +160,9 @@ void StripProblem<T, dim, spin>::share(World* world) {
     strips_of_ranks_.push_back(first_of(first_part(rank)));
 }
 
-template <class T, int dim, bool spin>
+template <class T, class Law, bool spin>
 template <class Problem>
-std::vector<std::int32_t> StripProblem<T, dim, spin>::border_of(const Problem& problem, const SweepPlan& plan,
+std::vector<std::int32_t> StripProblem<T, Law, spin>::border_of(const Problem& problem, const SweepPlan& plan,
                                                                 int strip) const {
   std::vector<std::int32_t> border;
   if (strip == 0 || strip == strips()) return border;
@@ -178,8 +178,8 @@ std::vector<std::int32_t> StripProblem<T, dim, spin>::border_of(const Problem& p
   return border;
 }
 
-template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::exchange(int phase, WorkArray<BodyRecord<T>>& records) {
+template <class T, class Law, bool spin>
+void StripProblem<T, Law, spin>::exchange(int phase, WorkArray<BodyRecord<T>>& records) {
   if (world_ == nullptr) return;
   const int before = rank_ < ranks_ ? rank_ - 1 : -1, after = rank_ + 1 < ranks_ ? rank_ + 1 : -1;
   const auto &out = border_[phase], &in = border_[1 - phase];
@@ -190,36 +190,36 @@ void StripProblem<T, dim, spin>::exchange(int phase, WorkArray<BodyRecord<T>>& r
   for (std::size_t k = 0; k < in.size(); ++k) records[in[k]] = received_[k];
 }
 
-template <class T, int dim, bool spin>
+template <class T, class Law, bool spin>
 template <class Entry>
-void StripProblem<T, dim, spin>::gather(std::span<Entry> all, std::size_t of_strip) const {
+void StripProblem<T, Law, spin>::gather(std::span<Entry> all, std::size_t of_strip) const {
   if (world_ == nullptr) return;
   std::vector<std::size_t> first;
   for (const int strip : strips_of_ranks_) first.push_back(of_strip * strip);
   world_->gather(all, first);
 }
 
-template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::gather_steps(int slot) {
+template <class T, class Law, bool spin>
+void StripProblem<T, Law, spin>::gather_steps(int slot) {
   gather(std::span(step_squares_[slot]), 2);
 }
 
-template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::gather_estimates() {
+template <class T, class Law, bool spin>
+void StripProblem<T, Law, spin>::gather_estimates() {
   gather(std::span(estimates_), 2);
 }
 
-template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::gather_parts(std::span<double> all, std::size_t of_part) const {
+template <class T, class Law, bool spin>
+void StripProblem<T, Law, spin>::gather_parts(std::span<double> all, std::size_t of_part) const {
   if (world_ == nullptr) return;
   std::vector<std::size_t> first;
   for (int rank = 0; rank <= world_->ranks(); ++rank) first.push_back(of_part * first_part(rank));
   world_->gather(all, first);
 }
 
-template <class T, int dim, bool spin>
+template <class T, class Law, bool spin>
 template <class Problem>
-void StripProblem<T, dim, spin>::unpack(const Problem& problem, bool kept, std::vector<double>& r,
+void StripProblem<T, Law, spin>::unpack(const Problem& problem, bool kept, std::vector<double>& r,
                                         const TeamLoops& loops) const {
   constexpr std::size_t width = Block::width;
   const auto [first_strip, end_strip] = own();
@@ -236,21 +236,21 @@ void StripProblem<T, dim, spin>::unpack(const Problem& problem, bool kept, std::
   if (world_ != nullptr) world_->gather(std::span(r), contacts_of_ranks_);
 }
 
-template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::rest(const TeamLoops& loops) {
+template <class T, class Law, bool spin>
+void StripProblem<T, Law, spin>::rest(const TeamLoops& loops) {
   loops.each(bodies_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) bodies_[b].x = bodies_[b].z = bodies_[b].s = 0;
   });
 }
 
-template <class T, int dim, bool spin>
-int StripProblem<T, dim, spin>::first_of(int part) const {
+template <class T, class Law, bool spin>
+int StripProblem<T, Law, spin>::first_of(int part) const {
   if (part == parts) return strips();
   return strip_at(blocks_.size() * part / parts, 0, strips());
 }
 
-template <class T, int dim, bool spin>
-int StripProblem<T, dim, spin>::first_strip(int rank, int thread, int threads) const {
+template <class T, class Law, bool spin>
+int StripProblem<T, Law, spin>::first_strip(int rank, int thread, int threads) const {
   const int begin = strips_of_ranks_[rank], end = strips_of_ranks_[rank + 1];
   if (thread == threads || begin == end) return end;
   const std::size_t first = strips_[begin].block[0], blocks = strips_[end - 1].block[2] - first;
@@ -258,27 +258,27 @@ int StripProblem<T, dim, spin>::first_strip(int rank, int thread, int threads) c
 }
 
 /// The strip of [begin, end) that holds a block in its second half, or the next one.
-template <class T, int dim, bool spin>
-int StripProblem<T, dim, spin>::strip_at(std::size_t block, int begin, int end) const {
+template <class T, class Law, bool spin>
+int StripProblem<T, Law, spin>::strip_at(std::size_t block, int begin, int end) const {
   int strip = begin;
   while (strip < end && (strips_[strip].block[0] + strips_[strip].block[2]) / 2 < block) ++strip;
   return strip;
 }
 
-template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::load(int strip, int phase) {
+template <class T, class Law, bool spin>
+void StripProblem<T, Law, spin>::load(int strip, int phase) {
   const Strip& l = strips_[strip];
   Kernels::load(blocks_.data() + l.block[phase], l.block[phase + 1] - l.block[phase], bodies_.data());
 }
 
-template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::start(int strip) {
+template <class T, class Law, bool spin>
+void StripProblem<T, Law, spin>::start(int strip) {
   const Strip& l = strips_[strip];
   for (std::size_t b = l.bodies; b < l.bodies_end; ++b) before_[b] = bodies_[b];
 }
 
-template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::sweep(int strip, int phase, int slot, T beta, SweepExtrapolation how) {
+template <class T, class Law, bool spin>
+void StripProblem<T, Law, spin>::sweep(int strip, int phase, int slot, T beta, SweepExtrapolation how) {
   const Strip& l = strips_[strip];
   if (how != SweepExtrapolation::none && phase == 0)
     Kernels::go_on(&bodies_[l.bodies], &before_[l.bodies], l.bodies_end - l.bodies, beta);
@@ -288,23 +288,23 @@ void StripProblem<T, dim, spin>::sweep(int strip, int phase, int slot, T beta, S
                      bodies_.data(), beta, how);
 }
 
-template <class T, int dim, bool spin>
-double StripProblem<T, dim, spin>::step_squares(int slot) const {
+template <class T, class Law, bool spin>
+double StripProblem<T, Law, spin>::step_squares(int slot) const {
   return std::accumulate(step_squares_[slot].begin(), step_squares_[slot].end(), 0.0);
 }
 
-template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::load_driven() {
-  drumlin::particles::load(*W_, std::span<const DrivenContact<dim>>(driven_), bodies_.data());
+template <class T, class Law, bool spin>
+void StripProblem<T, Law, spin>::load_driven() {
+  drumlin::particles::load(*W_, std::span<const DrivenContact<Law>>(driven_), bodies_.data());
 }
 
-template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::start_driven() {
+template <class T, class Law, bool spin>
+void StripProblem<T, Law, spin>::start_driven() {
   for (std::size_t b = driven_bodies_; b < bodies_.size(); ++b) before_[b] = bodies_[b];
 }
 
-template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::sweep_driven(int slot, T beta, bool accelerated) {
+template <class T, class Law, bool spin>
+void StripProblem<T, Law, spin>::sweep_driven(int slot, T beta, bool accelerated) {
   // Nobody else reads the walls: they go on when their contacts come.
   if (accelerated)
     Kernels::go_on(&bodies_[driven_bodies_], &before_[driven_bodies_], bodies_.size() - driven_bodies_, beta);
@@ -312,22 +312,22 @@ void StripProblem<T, dim, spin>::sweep_driven(int slot, T beta, bool accelerated
       drumlin::particles::sweep(*W_, std::span(driven_), bodies_.data(), beta, accelerated);
 }
 
-template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::estimate_residual(int strip, int phase) {
+template <class T, class Law, bool spin>
+void StripProblem<T, Law, spin>::estimate_residual(int strip, int phase) {
   const Strip& l = strips_[strip];
   estimates_[2 * strip + phase] =
       Kernels::residual(blocks_.data() + l.block[phase], l.block[phase + 1] - l.block[phase], bodies_.data());
 }
 
-template <class T, int dim, bool spin>
-ResidualEstimate StripProblem<T, dim, spin>::residual_estimate() const {
-  ResidualEstimate all = residual(*W_, std::span<const DrivenContact<dim>>(driven_), bodies_.data());
+template <class T, class Law, bool spin>
+ResidualEstimate StripProblem<T, Law, spin>::residual_estimate() const {
+  ResidualEstimate all = residual(*W_, std::span<const DrivenContact<Law>>(driven_), bodies_.data());
   for (const ResidualEstimate& of_slice : estimates_) all.add(of_slice);
   return all;
 }
 
-template <class T, int dim, bool spin>
-double StripProblem<T, dim, spin>::summed_impulses(const TeamLoops& loops) {
+template <class T, class Law, bool spin>
+double StripProblem<T, Law, spin>::summed_impulses(const TeamLoops& loops) {
   impulses_of_strips_.assign(strips(), 0.0);
   const auto [first, end] = own();
   loops.each_of(end - first, [&, first = first](int k) {
@@ -339,26 +339,26 @@ double StripProblem<T, dim, spin>::summed_impulses(const TeamLoops& loops) {
   return std::accumulate(impulses_of_strips_.begin(), impulses_of_strips_.end(), 0.0);
 }
 
-template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::keep(int strip) {
+template <class T, class Law, bool spin>
+void StripProblem<T, Law, spin>::keep(int strip) {
   for (std::size_t b = strips_[strip].block[0]; b < strips_[strip].block[2]; ++b) kept_[b] = blocks_[b].r;
 }
 
-template <class T, int dim, bool spin>
-void StripProblem<T, dim, spin>::keep_driven() {
+template <class T, class Law, bool spin>
+void StripProblem<T, Law, spin>::keep_driven() {
   for (auto& contact : driven_) contact.kept = contact.r;
 }
 
-#define DRUMLIN_INSTANTIATE(T, dim, spin, Problem)                                                       \
-  template class StripProblem<T, dim, spin>;                                                             \
-  template void StripProblem<T, dim, spin>::pack(const Problem&, const SweepPlan&,                       \
+#define DRUMLIN_INSTANTIATE(T, Law, spin, Problem)                                                       \
+  template class StripProblem<T, Law, spin>;                                                             \
+  template void StripProblem<T, Law, spin>::pack(const Problem&, const SweepPlan&,                       \
                                                  std::span<const std::int32_t>, std::span<const double>, \
                                                  const TeamLoops&, World*);                              \
-  template void StripProblem<T, dim, spin>::unpack(const Problem&, bool, std::vector<double>&,           \
+  template void StripProblem<T, Law, spin>::unpack(const Problem&, bool, std::vector<double>&,           \
                                                    const TeamLoops&) const;
-#define DRUMLIN_INSTANTIATE_BOTH(Problem, dim, spin) \
-  DRUMLIN_INSTANTIATE(double, dim, spin, Problem)    \
-  DRUMLIN_INSTANTIATE(float, dim, spin, Problem)
+#define DRUMLIN_INSTANTIATE_BOTH(Problem, Law, spin) \
+  DRUMLIN_INSTANTIATE(double, Law, spin, Problem)    \
+  DRUMLIN_INSTANTIATE(float, Law, spin, Problem)
 DRUMLIN_EACH_DISC_PROBLEM(DRUMLIN_INSTANTIATE_BOTH)
 #undef DRUMLIN_INSTANTIATE_BOTH
 #undef DRUMLIN_INSTANTIATE

@@ -17,11 +17,12 @@
 namespace drumlin::particles {
 
 /// A contact problem in blocks of eight, ready to be swept, and its state. T is the precision of the sweeps.
-template <class T, int dim, bool spin>
+template <class T, class Law, bool spin>
 class StripProblem {
  public:
-  using Kernels = SweepKernels<T, dim, spin>;
-  using Block = ContactBlock<T, dim>;
+  static constexpr int dim = Law::unknowns;
+  using Kernels = SweepKernels<T, Law, spin>;
+  using Block = ContactBlock<T, Law>;
   static constexpr int sum_slots = 2 * longest_wave;
   /// Parts of about as many blocks each, whatever the number of threads and ranks; ranks have whole parts.
   static constexpr int parts = 16;
@@ -141,7 +142,7 @@ class StripProblem {
   template <class Entry>
   void gather(std::span<Entry> all, std::size_t of_strip) const;
 
-  const DiscDelassus<dim, spin>* W_ = nullptr;  // of the problem that was packed
+  const DiscDelassus<Law::unknowns, spin>* W_ = nullptr;  // of the problem that was packed
   std::vector<Strip> strips_;
   World* world_ = nullptr;  // none where this rank has all strips
   int rank_ = 0, ranks_ = 1;
@@ -158,7 +159,7 @@ class StripProblem {
   std::vector<double> step_squares_[sum_slots];  // of each slice, of the sweeps of two waves
   std::vector<ResidualEstimate> estimates_;      // of each slice
   WorkArray<Impulses> kept_;                     // of each block
-  std::vector<DrivenContact<dim>> driven_;
+  std::vector<DrivenContact<Law>> driven_;
   std::size_t driven_bodies_ = 0;  // first of them in bodies_
 };
 

@@ -120,7 +120,7 @@ double pack_in_strips(const Problem& problem, SolverWorkspace<Problem>& work, St
 /// Whether a problem is large enough to be corrected on a coarse grid, and tells what that needs.
 template <class Problem>
 bool wants_coarse_loads(const Problem& problem, const SolverWorkspace<Problem>& work) {
-  return Problem::dim < 3 && !problem.W.coupled() && !problem.W.plan.empty() &&
+  return is_plain<typename Problem::Law> && !problem.W.coupled() && !problem.W.plan.empty() &&
          problem.contacts() >= least_contacts_of_coarse_loads &&
          work.places.x.size() == static_cast<std::size_t>(problem.W.fixed());
 }
@@ -129,7 +129,7 @@ bool wants_coarse_loads(const Problem& problem, const SolverWorkspace<Problem>& 
 template <class T, class Problem, class Strips>
 void correct_loads(const Problem& problem, SolverWorkspace<Problem>& work, Strips& strips, bool first,
                    const TeamLoops& loops, SweepState<T>& state) {
-  if constexpr (Problem::dim < 3) {
+  if constexpr (is_plain<typename Problem::Law>) {
     const auto [first_strip, end_strip] = strips.own();
     if (std::exchange(state.keep, false))
       for (int strip = first_strip; strip < end_strip; ++strip) strips.keep(strip);

@@ -44,16 +44,16 @@ HWY_INLINE Started<V> started_from(const std::array<T, 8>& r, std::array<T, 8>& 
 }
 
 /// A vector of contacts: those of a block from k on.
-template <class T, int dim>
+template <class T, class Law>
 struct Place {
-  ContactBlock<T, dim>* block;
+  ContactBlock<T, Law>* block;
   std::size_t k;
 };
 
 template <class T, int dim>
 using Impulses = std::array<hn::Vec<Lanes<T>>, static_cast<std::size_t>(dim)>;
 
-/// The dim numbers of contacts that stand in arrays of them.
+/// The Law::unknowns numbers of contacts that stand in arrays of them.
 template <std::size_t dim, class T, std::size_t all>
 HWY_INLINE Impulses<T, dim> load_numbers(const std::array<std::array<T, 8>, all>& arrays, std::size_t k) {
   Impulses<T, dim> numbers;
@@ -62,43 +62,44 @@ HWY_INLINE Impulses<T, dim> load_numbers(const std::array<std::array<T, 8>, all>
 }
 
 /// Coefficients of the law of contacts.
-template <class T, int dim>
-HWY_INLINE contact_law::Coefficients<hn::Vec<Lanes<T>>, dim> coefficients(const ContactBlock<T, dim>& block,
+template <class T, class Law>
+HWY_INLINE contact_law::Coefficients<hn::Vec<Lanes<T>>, Law> coefficients(const ContactBlock<T, Law>& block,
                                                                           std::size_t k) {
-  const Lanes<T> d;
-  if constexpr (dim == 1) return {};
-  if constexpr (dim == 2) return {hn::Load(d, &block.mu[k])};
-  if constexpr (dim == 3) return {hn::Load(d, &block.mu[k]), hn::Load(d, &block.mu_r[k])};
+  if constexpr (Law::coefficients == 0)
+    return {};
+  else
+    return load_numbers<Law::coefficients>(block.mu, k);
 }
 
 /// Normals and levers of contacts.
-template <class T, int dim>
-HWY_INLINE contact_law::ContactFrame<hn::Vec<Lanes<T>>> frame_of(const ContactBlock<T, dim>& block,
+template <class T, class Law>
+HWY_INLINE contact_law::ContactFrame<hn::Vec<Lanes<T>>> frame_of(const ContactBlock<T, Law>& block,
                                                                  std::size_t k) {
   const Lanes<T> d;
   const auto n_x = hn::Load(d, &block.n_x[k]), n_z = hn::Load(d, &block.n_z[k]);
-  if constexpr (dim == 3) return {n_x, n_z, hn::Load(d, &block.lever[k])};
+  if constexpr (Law::unknowns == 3) return {n_x, n_z, hn::Load(d, &block.lever[k])};
   return {n_x, n_z, hn::Zero(d)};
 }
 
 /// u = W r + q of contacts, from the velocities of their bodies.
-template <bool spin, class T, int dim>
-HWY_INLINE Impulses<T, dim> velocities(const ContactBlock<T, dim>& block, std::size_t k,
-                                       const BodyVectors<T>& I, const BodyVectors<T>& J) {
-  const auto own = contact_law::relative_velocity<spin, dim>(frame_of(block, k), I.x - J.x, I.z - J.z, I, J);
-  auto u = load_numbers<dim>(block.q, k);
-  for (std::size_t e = 0; e < dim; ++e) u[e] = u[e] + own[e];
+template <bool spin, class T, class Law>
+HWY_INLINE Impulses<T, Law::unknowns> velocities(const ContactBlock<T, Law>& block, std::size_t k,
+                                                 const BodyVectors<T>& I, const BodyVectors<T>& J) {
+  const auto own =
+      contact_law::relative_velocity<spin, Law::unknowns>(frame_of(block, k), I.x - J.x, I.z - J.z, I, J);
+  auto u = load_numbers<Law::unknowns>(block.q, k);
+  for (std::size_t e = 0; e < Law::unknowns; ++e) u[e] = u[e] + own[e];
   return u;
 }
 
-template <bool spin, class T, int dim>
-HWY_INLINE auto inverse_block(const ContactBlock<T, dim>& block, std::size_t k, const BodyVectors<T>& I,
+template <bool spin, class T, class Law>
+HWY_INLINE auto inverse_block(const ContactBlock<T, Law>& block, std::size_t k, const BodyVectors<T>& I,
                               const BodyVectors<T>& J) {
   const Lanes<T> d;
-  contact_law::InverseBlock<hn::Vec<Lanes<T>>, dim> W;
+  contact_law::InverseBlock<hn::Vec<Lanes<T>>, Law::unknowns> W;
   W.nn = hn::Load(d, &block.inverse_W_nn[k]);
-  if constexpr (dim >= 2) W.tt = W.nn * hn::Set(d, spin ? T(1) / T(3) : T(1));
-  if constexpr (dim == 3) {
+  if constexpr (Law::unknowns >= 2) W.tt = W.nn * hn::Set(d, spin ? T(1) / T(3) : T(1));
+  if constexpr (Law::unknowns == 3) {
     const auto turns = contact_law::turns_of(hn::Load(d, &block.lever[k]), I, J);
     W.rr = hn::Load(d, &block.inverse_W_rr[k]), W.tr = turns[1] - turns[0];
     W.tt_reduced = hn::Load(d, &block.inverse_W_tt[k]);
@@ -107,25 +108,26 @@ HWY_INLINE auto inverse_block(const ContactBlock<T, dim>& block, std::size_t k, 
 }
 
 /// What a sweep knows of a vector of contacts: their bodies, their steps, and the sum of squares of these.
-template <class T, int dim>
+template <class T, class Law>
 struct SweptContacts {
   BodyVectors<T> I, J;
-  Impulses<T, dim> step;
+  Impulses<T, Law::unknowns> step;
   hn::Vec<Lanes<T>> squares;
 };
 
-template <class T, int dim, bool spin, SweepExtrapolation how, class V>
-HWY_INLINE void solve(const Place<T, dim>& at, V beta, SweptContacts<T, dim>& c) {
+template <class T, class Law, bool spin, SweepExtrapolation how, class V>
+HWY_INLINE void solve(const Place<T, Law>& at, V beta, SweptContacts<T, Law>& c) {
   const Lanes<T> d;
   auto& [block, k] = at;
-  Impulses<T, dim> start, rounded_off;
-  for (std::size_t e = 0; e < dim; ++e) {
+  Impulses<T, Law::unknowns> start, rounded_off;
+  for (std::size_t e = 0; e < Law::unknowns; ++e) {
     const auto from = started_from<how>(block->r[e], block->before[e], k, beta);
     start[e] = from.r, rounded_off[e] = from.rounded_off;
   }
-  const auto fresh = contact_law::solved(inverse_block<spin>(*block, k, c.I, c.J), coefficients(*block, k),
-                                         velocities<spin>(*block, k, c.I, c.J), start);
-  for (std::size_t e = 0; e < dim; ++e) {
+  const auto fresh =
+      contact_law::solved(Law{}, inverse_block<spin>(*block, k, c.I, c.J), coefficients(*block, k),
+                          velocities<spin>(*block, k, c.I, c.J), start);
+  for (std::size_t e = 0; e < Law::unknowns; ++e) {
     const V step = fresh[e] - start[e];
     c.squares = e == 0 ? step * step : c.squares + step * step;
     c.step[e] = how == SweepExtrapolation::exact ? step + rounded_off[e] : step;
@@ -133,59 +135,60 @@ HWY_INLINE void solve(const Place<T, dim>& at, V beta, SweptContacts<T, dim>& c)
   }
 }
 
-template <class T, int dim>
-HWY_INLINE void bring_bodies(const Place<T, dim>& at, const BodyRecord<T>* bodies, SweptContacts<T, dim>& c) {
+template <class T, class Law>
+HWY_INLINE void bring_bodies(const Place<T, Law>& at, const BodyRecord<T>* bodies, SweptContacts<T, Law>& c) {
   c.I = load_bodies(bodies, &at.block->i[at.k]);
   c.J = load_bodies(bodies, &at.block->j[at.k]);
 }
 
 /// Gives impulses of contacts to their bodies.
-template <bool spin, class T, int dim>
-HWY_INLINE void push_bodies(const ContactBlock<T, dim>& block, std::size_t k, const Impulses<T, dim>& p,
-                            BodyVectors<T>& I, BodyVectors<T>& J, BodyRecord<T>* bodies) {
+template <bool spin, class T, class Law>
+HWY_INLINE void push_bodies(const ContactBlock<T, Law>& block, std::size_t k,
+                            const Impulses<T, Law::unknowns>& p, BodyVectors<T>& I, BodyVectors<T>& J,
+                            BodyRecord<T>* bodies) {
   contact_law::push<spin>(frame_of(block, k), p, I, J);
   store_bodies(I, bodies, &block.i[k]);
   store_bodies(J, bodies, &block.j[k]);
 }
 
-template <class T, int dim, bool spin>
-void load(const ContactBlock<T, dim>* blocks, std::size_t count, BodyRecord<T>* bodies) {
-  constexpr int width = ContactBlock<T, dim>::width;
+template <class T, class Law, bool spin>
+void load(const ContactBlock<T, Law>* blocks, std::size_t count, BodyRecord<T>* bodies) {
+  constexpr int width = ContactBlock<T, Law>::width;
   for (std::size_t b = 0; b < count; ++b) {
     const auto& block = blocks[b];
     for (std::size_t k = 0; k < width; k += hn::Lanes(Lanes<T>())) {
       auto I = load_bodies(bodies, &block.i[k]), J = load_bodies(bodies, &block.j[k]);
-      push_bodies<spin>(block, k, load_numbers<dim>(block.r, k), I, J, bodies);
+      push_bodies<spin>(block, k, load_numbers<Law::unknowns>(block.r, k), I, J, bodies);
     }
   }
 }
 
-template <class T, int dim, bool spin, SweepExtrapolation how>
-double sweep(ContactBlock<T, dim>* blocks, std::span<const std::int32_t> groups, BodyRecord<T>* bodies,
+template <class T, class Law, bool spin, SweepExtrapolation how>
+double sweep(ContactBlock<T, Law>* blocks, std::span<const std::int32_t> groups, BodyRecord<T>* bodies,
              T beta_) {
   const Lanes<T> d;
-  constexpr std::size_t width = ContactBlock<T, dim>::width;
+  constexpr std::size_t width = ContactBlock<T, Law>::width;
   const std::size_t lanes = hn::Lanes(d);
   const auto beta = hn::Set(d, beta_);
   // Eight sums whatever the length of a vector.
   HWY_ALIGN std::array<T, width> squares{};
-  const auto solve_and_add = [&](const Place<T, dim>& at, SweptContacts<T, dim>& c) HWY_ATTR {
-    solve<T, dim, spin, how>(at, beta, c);
+  const auto solve_and_add = [&](const Place<T, Law>& at, SweptContacts<T, Law>& c) HWY_ATTR {
+    solve<T, Law, spin, how>(at, beta, c);
     hn::Store(hn::Add(hn::Load(d, &squares[at.k]), c.squares), d, &squares[at.k]);
   };
   for (const std::int32_t count : groups) {
     if (count == 0) continue;
-    ContactBlock<T, dim>* const first = std::exchange(blocks, blocks + count);
+    ContactBlock<T, Law>* const first = std::exchange(blocks, blocks + count);
     // The chain of operations of one vector is longer than what a processor looks ahead: the bodies of the
     // next one come while this one's are pushed.
-    Place<T, dim> at{first, 0};
-    SweptContacts<T, dim> c, next;
+    Place<T, Law> at{first, 0};
+    SweptContacts<T, Law> c, next;
     bring_bodies(at, bodies, c);
     for (std::size_t left = count * (width / lanes) - 1; left > 0; --left) {
       solve_and_add(at, c);
 
       const bool whole = at.k + lanes == width;
-      const Place<T, dim> after{whole ? at.block + 1 : at.block, whole ? 0 : at.k + lanes};
+      const Place<T, Law> after{whole ? at.block + 1 : at.block, whole ? 0 : at.k + lanes};
       bring_bodies(after, bodies, next);
       push_bodies<spin>(*at.block, at.k, c.step, c.I, c.J, bodies);
       at = after;
@@ -198,23 +201,23 @@ double sweep(ContactBlock<T, dim>* blocks, std::span<const std::int32_t> groups,
   return total(squares);
 }
 
-template <class T, int dim, bool spin>
-double sweep(ContactBlock<T, dim>* blocks, std::span<const std::int32_t> groups, BodyRecord<T>* bodies,
+template <class T, class Law, bool spin>
+double sweep(ContactBlock<T, Law>* blocks, std::span<const std::int32_t> groups, BodyRecord<T>* bodies,
              T beta, SweepExtrapolation how) {
   using enum SweepExtrapolation;
-  if (how == none) return sweep<T, dim, spin, none>(blocks, groups, bodies, beta);
+  if (how == none) return sweep<T, Law, spin, none>(blocks, groups, bodies, beta);
   if constexpr (sizeof(T) < sizeof(double))
-    if (how == exact) return sweep<T, dim, spin, exact>(blocks, groups, bodies, beta);
-  return sweep<T, dim, spin, rounded>(blocks, groups, bodies, beta);
+    if (how == exact) return sweep<T, Law, spin, exact>(blocks, groups, bodies, beta);
+  return sweep<T, Law, spin, rounded>(blocks, groups, bodies, beta);
 }
 
 /// 1 / lambda_max(W_aa) of contacts: of discs that turn W_nn is below W_tt = 3 W_nn.
-template <class T, int dim, bool spin>
-HWY_INLINE auto inverse_eigenvalue(const ContactBlock<T, dim>& block, std::size_t k, const BodyVectors<T>& I,
+template <class T, class Law, bool spin>
+HWY_INLINE auto inverse_eigenvalue(const ContactBlock<T, Law>& block, std::size_t k, const BodyVectors<T>& I,
                                    const BodyVectors<T>& J) {
   const Lanes<T> d;
-  if constexpr (dim < 3) {
-    return hn::Load(d, &block.inverse_W_nn[k]) * hn::Set(d, dim == 2 && spin ? T(1) / T(3) : T(1));
+  if constexpr (Law::unknowns < 3) {
+    return hn::Load(d, &block.inverse_W_nn[k]) * hn::Set(d, Law::unknowns == 2 && spin ? T(1) / T(3) : T(1));
   } else {
     const auto w = I.inverse_mass + J.inverse_mass, lever = hn::Load(d, &block.lever[k]);
     const auto turns = contact_law::turns_of(lever, I, J);
@@ -225,11 +228,11 @@ HWY_INLINE auto inverse_eigenvalue(const ContactBlock<T, dim>& block, std::size_
   }
 }
 
-template <class T, int dim, bool spin>
-ResidualEstimate residual(const ContactBlock<T, dim>* blocks, std::size_t count,
+template <class T, class Law, bool spin>
+ResidualEstimate residual(const ContactBlock<T, Law>* blocks, std::size_t count,
                           const BodyRecord<T>* bodies) {
   const Lanes<T> d;
-  constexpr int width = ContactBlock<T, dim>::width;
+  constexpr int width = ContactBlock<T, Law>::width;
   HWY_ALIGN std::array<T, width> squares{};
   HWY_ALIGN std::array<T, width> complementarity_violation{};
   HWY_ALIGN std::array<T, width> lowest_u_n{};
@@ -237,13 +240,13 @@ ResidualEstimate residual(const ContactBlock<T, dim>* blocks, std::size_t count,
     const auto& block = blocks[b];
     for (std::size_t k = 0; k < width; k += hn::Lanes(d)) {
       const auto I = load_bodies(bodies, &block.i[k]), J = load_bodies(bodies, &block.j[k]);
-      const auto rho = inverse_eigenvalue<T, dim, spin>(block, k, I, J);
-      const auto r = load_numbers<dim>(block.r, k), u = velocities<spin>(block, k, I, J);
+      const auto rho = inverse_eigenvalue<T, Law, spin>(block, k, I, J);
+      const auto r = load_numbers<Law::unknowns>(block.r, k), u = velocities<spin>(block, k, I, J);
       const auto closing = hn::Min(hn::Zero(d), u[0]);
       hn::Store(hn::Load(d, &complementarity_violation[k]) - r[0] * closing, d,
                 &complementarity_violation[k]);
       hn::Store(hn::Min(hn::Load(d, &lowest_u_n[k]), closing), d, &lowest_u_n[k]);
-      const auto square = contact_law::squared_natural_residual(rho, coefficients(block, k), r, u);
+      const auto square = contact_law::squared_natural_residual(Law{}, rho, coefficients(block, k), r, u);
       hn::Store(hn::Load(d, &squares[k]) + square / (rho * rho), d, &squares[k]);
     }
   }
@@ -271,26 +274,23 @@ void go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, T be
   go_on(of_a_record, &bodies->x, &before->x, most, 4 * count, beta);
 }
 
-#define DRUMLIN_KERNELS(T, name, dim, spin)                                                                \
-  void load_##name(const ContactBlock<T, dim>* b, std::size_t n, BodyRecord<T>* v) {                       \
-    load<T, dim, spin>(b, n, v);                                                                           \
-  }                                                                                                        \
-  double sweep_##name(ContactBlock<T, dim>* b, std::span<const std::int32_t> groups, BodyRecord<T>* v,     \
-                      T beta, SweepExtrapolation how) {                                                    \
-    return sweep<T, dim, spin>(b, groups, v, beta, how);                                                   \
-  }                                                                                                        \
-  ResidualEstimate residual_##name(const ContactBlock<T, dim>* b, std::size_t n, const BodyRecord<T>* v) { \
-    return residual<T, dim, spin>(b, n, v);                                                                \
+#define DRUMLIN_KERNELS_OF(T, Problem, Law, spin)                                             \
+  void load_##T##_##Problem(const ContactBlock<T, Law>* b, std::size_t n, BodyRecord<T>* v) { \
+    load<T, Law, spin>(b, n, v);                                                              \
+  }                                                                                           \
+  double sweep_##T##_##Problem(ContactBlock<T, Law>* b, std::span<const std::int32_t> groups, \
+                               BodyRecord<T>* v, T beta, SweepExtrapolation how) {            \
+    return sweep<T, Law, spin>(b, groups, v, beta, how);                                      \
+  }                                                                                           \
+  ResidualEstimate residual_##T##_##Problem(const ContactBlock<T, Law>* b, std::size_t n,     \
+                                            const BodyRecord<T>* v) {                         \
+    return residual<T, Law, spin>(b, n, v);                                                   \
   }
-DRUMLIN_KERNELS(double, double_smooth, 1, false)
-DRUMLIN_KERNELS(double, double_friction, 2, false)
-DRUMLIN_KERNELS(double, double_spin, 2, true)
-DRUMLIN_KERNELS(double, double_couple, 3, true)
-DRUMLIN_KERNELS(float, float_smooth, 1, false)
-DRUMLIN_KERNELS(float, float_friction, 2, false)
-DRUMLIN_KERNELS(float, float_spin, 2, true)
-DRUMLIN_KERNELS(float, float_couple, 3, true)
+#define DRUMLIN_KERNELS(Problem, Law, spin) \
+  DRUMLIN_KERNELS_OF(double, Problem, Law, spin) DRUMLIN_KERNELS_OF(float, Problem, Law, spin)
+DRUMLIN_EACH_DISC_PROBLEM(DRUMLIN_KERNELS)
 #undef DRUMLIN_KERNELS
+#undef DRUMLIN_KERNELS_OF
 
 void go_on_double(BodyRecord<double>* bodies, BodyRecord<double>* before, std::size_t n, double beta) {
   go_on<double>(bodies, before, n, beta);
@@ -308,38 +308,34 @@ namespace drumlin::particles {
 HWY_EXPORT(go_on_double);
 HWY_EXPORT(go_on_float);
 
-#define DRUMLIN_DISPATCH(T, precision, name, dim, spin)                                                   \
-  HWY_EXPORT(load_##name);                                                                                \
-  HWY_EXPORT(residual_##name);                                                                            \
-  HWY_EXPORT(sweep_##name);                                                                               \
+#define DRUMLIN_DISPATCH_OF(T, Problem, Law, spin)                                                        \
+  HWY_EXPORT(load_##T##_##Problem);                                                                       \
+  HWY_EXPORT(residual_##T##_##Problem);                                                                   \
+  HWY_EXPORT(sweep_##T##_##Problem);                                                                      \
   template <>                                                                                             \
-  void SweepKernels<T, dim, spin>::load(const Block* blocks, std::size_t count, BodyRecord<T>* bodies) {  \
-    HWY_DYNAMIC_DISPATCH(load_##name)(blocks, count, bodies);                                             \
+  void SweepKernels<T, Law, spin>::load(const Block* blocks, std::size_t count, BodyRecord<T>* bodies) {  \
+    HWY_DYNAMIC_DISPATCH(load_##T##_##Problem)(blocks, count, bodies);                                    \
   }                                                                                                       \
   template <>                                                                                             \
-  double SweepKernels<T, dim, spin>::sweep(Block* blocks, std::span<const std::int32_t> groups,           \
+  double SweepKernels<T, Law, spin>::sweep(Block* blocks, std::span<const std::int32_t> groups,           \
                                            BodyRecord<T>* bodies, T beta, SweepExtrapolation how) {       \
-    return HWY_DYNAMIC_DISPATCH(sweep_##name)(blocks, groups, bodies, beta, how);                         \
+    return HWY_DYNAMIC_DISPATCH(sweep_##T##_##Problem)(blocks, groups, bodies, beta, how);                \
   }                                                                                                       \
   template <>                                                                                             \
-  ResidualEstimate SweepKernels<T, dim, spin>::residual(const Block* blocks, std::size_t count,           \
+  ResidualEstimate SweepKernels<T, Law, spin>::residual(const Block* blocks, std::size_t count,           \
                                                         const BodyRecord<T>* bodies) {                    \
-    return HWY_DYNAMIC_DISPATCH(residual_##name)(blocks, count, bodies);                                  \
+    return HWY_DYNAMIC_DISPATCH(residual_##T##_##Problem)(blocks, count, bodies);                         \
   }                                                                                                       \
   template <>                                                                                             \
-  void SweepKernels<T, dim, spin>::go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, \
+  void SweepKernels<T, Law, spin>::go_on(BodyRecord<T>* bodies, BodyRecord<T>* before, std::size_t count, \
                                          T beta) {                                                        \
-    HWY_DYNAMIC_DISPATCH(go_on_##precision)(bodies, before, count, beta);                                 \
+    HWY_DYNAMIC_DISPATCH(go_on_##T)(bodies, before, count, beta);                                         \
   }
-DRUMLIN_DISPATCH(double, double, double_smooth, 1, false)
-DRUMLIN_DISPATCH(double, double, double_friction, 2, false)
-DRUMLIN_DISPATCH(double, double, double_spin, 2, true)
-DRUMLIN_DISPATCH(double, double, double_couple, 3, true)
-DRUMLIN_DISPATCH(float, float, float_smooth, 1, false)
-DRUMLIN_DISPATCH(float, float, float_friction, 2, false)
-DRUMLIN_DISPATCH(float, float, float_spin, 2, true)
-DRUMLIN_DISPATCH(float, float, float_couple, 3, true)
+#define DRUMLIN_DISPATCH(Problem, Law, spin) \
+  DRUMLIN_DISPATCH_OF(double, Problem, Law, spin) DRUMLIN_DISPATCH_OF(float, Problem, Law, spin)
+DRUMLIN_EACH_DISC_PROBLEM(DRUMLIN_DISPATCH)
 #undef DRUMLIN_DISPATCH
+#undef DRUMLIN_DISPATCH_OF
 
 }  // namespace drumlin::particles
 #endif  // HWY_ONCE

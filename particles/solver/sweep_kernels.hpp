@@ -14,23 +14,25 @@
 
 namespace drumlin::particles {
 
-template <class T, int dim>
-struct FrictionOfBlock {
-  std::array<T, 8> mu;
+template <class T, int count>
+struct CoefficientsOfBlock {
+  std::array<std::array<T, 8>, static_cast<std::size_t>(count)> mu;  ///< in the order of the law
 };
 template <class T>
-struct FrictionOfBlock<T, 1> {};
+struct CoefficientsOfBlock<T, 0> {};
 /// `lever` as in DiscDelassus; with W = (W_tt W_tr; W_tr W_rr), `inverse_W_rr` is 1 / W_rr and
 /// `inverse_W_tt` that of W_tt - W_tr^2 / W_rr, friction with the couple eliminated.
+template <class T, int dim>
+struct CoupleOfBlock {};
 template <class T>
-struct FrictionOfBlock<T, 3> {
-  std::array<T, 8> mu, mu_r, lever, inverse_W_rr, inverse_W_tt;
+struct CoupleOfBlock<T, 3> {
+  std::array<T, 8> lever, inverse_W_rr, inverse_W_tt;
 };
 
-/// Eight contacts that share no body. `dim` unknowns per contact.
-template <class T, int dim>
-struct alignas(64) ContactBlock : FrictionOfBlock<T, dim> {
-  static constexpr int width = 8;
+/// Eight contacts that share no body.
+template <class T, class Law>
+struct alignas(64) ContactBlock : CoefficientsOfBlock<T, Law::coefficients>, CoupleOfBlock<T, Law::unknowns> {
+  static constexpr int width = 8, dim = Law::unknowns;
   std::array<std::uint32_t, width> i, j;  ///< where the records of the bodies begin, in bytes
   std::array<T, width> n_x, n_z, inverse_W_nn;
   std::array<std::array<T, width>, dim> q, r;
@@ -53,9 +55,9 @@ void require_offsets(std::size_t records) {
 }
 
 /// Kernels of one kind of problem; `spin`: bodies turn.
-template <class T, int dim, bool spin>
+template <class T, class Law, bool spin>
 struct SweepKernels {
-  using Block = ContactBlock<T, dim>;
+  using Block = ContactBlock<T, Law>;
   /// Adds the impulses of the blocks to the bodies.
   static void load(const Block* blocks, std::size_t count, BodyRecord<T>* bodies);
   /// One Gauss-Seidel sweep over the blocks in their order. Each of the `groups` is a number of successive

@@ -80,11 +80,10 @@ void assemble_contact(const StepInput& step, const Candidate& pair, int a, Probl
   }
   if constexpr (dim == 3) {
     each_law(laws, [&](const auto& law) {
-      if constexpr (requires { law.couple_bound(pair, step.materials()); }) {
+      if constexpr (requires { law.lever(pair, bodies); }) {
         const double lever = law.lever(pair, bodies);
         problem.W.set(a, pair.i, second, pair.n_x, pair.n_z, lever);
         problem.q[dim * a + 2] = law.couple_velocity(pair, bodies, step.walls, lever, step.time_step);
-        problem.mu[2 * a + 1] = law.couple_bound(pair, step.materials());
       }
     });
   } else {
@@ -96,8 +95,14 @@ void assemble_contact(const StepInput& step, const Candidate& pair, int a, Probl
       return Problem::Delassus::spin ? sliding_of_rims(u_t, pair, bodies) : u_t;
     };
     problem.q[dim * a + 1] = sliding(u);
-    problem.mu[(dim - 1) * a] =
+    double* const mu = &problem.mu[Problem::Law::coefficients * a];
+    mu[0] =
         step.friction(pair, [&] { return sliding(relative_velocity(pair, bodies.v_x, bodies.v_z, wall)); });
+    if constexpr (Problem::Law::coefficients == 2)
+      each_law(laws, [&](const auto& law) {
+        if constexpr (requires { law.coefficient(pair, step.materials()); })
+          mu[1] = law.coefficient(pair, step.materials());
+      });
   }
 }
 
@@ -128,7 +133,7 @@ void assemble(const StepInput& step, const StepContacts& contacts, const TeamLoo
   assemble_bodies(step, problem);
   problem.W.renew(count);
   resize_closely(problem.q, dim * count);
-  resize_closely(problem.mu, (dim - 1) * count);
+  resize_closely(problem.mu, Problem::Law::coefficients * count);
   problem.time_step = step.time_step, problem.rounding = rounding_of(step, loops);
   loops.each(count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t a = begin; a < end; ++a)

@@ -51,7 +51,6 @@ void add_contact_work(const StepInput& step, const StepContacts& contacts, const
                       const Solution<Problem>& solution, const StepEnergy& step_energy,
                       EnergyLedger& ledger) {
   constexpr int dim = Problem::dim;
-  const auto& impulses = solution.impulses;
   const Bodies mean = mean_motion(step_energy.before(), step.bodies);
   const Point change = cell_answer(problem, solution.velocities.bodies);
   // Mean velocity over the step, impacts aside; step.free.driven holds what contacts left to driven walls.
@@ -65,19 +64,18 @@ void add_contact_work(const StepInput& step, const StepContacts& contacts, const
                                   : image_velocity(problem, change, pair, a);  // beyond that of j itself
     pair.wall_v_x = of_j.x, pair.wall_v_z = of_j.z;
     const Point u = relative_velocity(pair, mean.v_x, mean.v_z, of_j);
-    const double u_n = normal_part(pair, u), r_n = impulses[dim * a];
-    double r_t = 0;
+    const double u_n = normal_part(pair, u);
+    const auto [r_n, r_t, r_c] = parts_of<Problem>(solution.impulses, a);
     add_work(r_n * u_n, ledger.impacts, ledger);
     if constexpr (dim >= 2) {
       const double u_t = tangential_part(pair, u);
-      r_t = impulses[dim * a + 1];
       add_work(r_t * (mean.spin.empty() ? u_t : sliding_of_rims(u_t, pair, mean)), ledger.friction, ledger);
     }
     const auto add_law_work = [&](const auto& law, std::optional<double>& work) {
       if constexpr (requires { law->attraction(pair, step.materials()); })
         if (law) add_work(-step.time_step * law->attraction(pair, step.materials()) * u_n, *work, ledger);
-      if constexpr (dim == 3 && requires { law->couple_bound(pair, step.materials()); }) {
-        const double r_c = impulses[dim * a + 2], lever = law->lever(pair, mean);
+      if constexpr (dim == 3 && requires { law->lever(pair, mean); }) {
+        const double lever = law->lever(pair, mean);
         add_work(r_c * law->couple_velocity(pair, mean, step.walls, lever, step.time_step), *work, ledger);
         add_work(r_c * law->wall_part(pair, mean, step.walls, step.time_step), ledger.walls, ledger);
       }

@@ -75,7 +75,7 @@ double ImpactPass::sweep() {
     const double normal = contact_law::positive_part(c.normal - u.x / c.W_nn), d_n = normal - c.normal;
     const double free = c.tangential - (u.z + c.W_nt * d_n) / c.W_tt;
     const double d_t =
-        c.mu > 0 ? contact_law::bounded({c.mu}, std::array{normal, free})[1] - c.tangential : 0;
+        c.mu > 0 ? contact_law::bounded(Coulomb{}, {c.mu}, std::array{normal, free})[1] - c.tangential : 0;
     push(c, d_n, d_t);
     c.normal = normal, c.tangential += d_t;
     largest = std::max({largest, std::abs(d_n) * c.W_nn, std::abs(d_t) * c.W_tt});
@@ -151,7 +151,7 @@ void ImpactPass::apply_friction(double share) {
       const double mu = c.mu * share * c.e;  // of the normal impulse of the compression
       if (mu * c.normal <= 0) continue;
       const double now = friction_[a], free = now - velocity(c).z / c.W_tt;
-      friction_[a] = contact_law::bounded({mu}, std::array{c.normal, free})[1];
+      friction_[a] = contact_law::bounded(Coulomb{}, {mu}, std::array{c.normal, free})[1];
       push(c, 0, friction_[a] - now);
       largest = std::max(largest, std::abs(friction_[a] - now) * c.W_tt);
     }

@@ -265,13 +265,15 @@ void Impacts::add(std::int32_t a, const Surfaces& now, double time) {
   const Point of_i = acceleration_of(pair.i), of_j = second < 0 ? Point{} : acceleration_of(second);
   contact.gain = {time * (of_i.x - of_j.x), time * (of_i.z - of_j.z)};
   contact.e = restitution_of(pair);
-  if (step.laws.friction)
-    contact.mu = step.friction(pair, [&] {
+  if (step.laws.friction) {
+    const auto sliding = [&] {
       const Point v = velocity(pair.i), w = second < 0 ? Point{} : velocity(second);
       const Point u{v.x - w.x - contact.wall.x + contact.gain.x, v.z - w.z - contact.wall.z + contact.gain.z};
       const double rim_j = contact.j < 0 ? 0 : pass_.bodies[contact.j].rim;
       return now.n_z * u.x - now.n_x * u.z - pass_.bodies[contact.i].rim - rim_j;
-    });
+    };
+    contact.mu = step.sliding_friction(step.friction(pair, sliding), pair);
+  }
   pass_.add(contact);
   in_pass_[a] = passes_;
   ++met_[a];

@@ -2,8 +2,8 @@
 // One time step of rigid discs: implicit contacts by Moreau-Jean (the paper, Sec. II, refs. Jean 1999, Moreau
 // 1999) with theta = 1, predicted gaps, impacts at their times and a position projection that gives no
 // kinetic energy. Grains in flight take the mean velocity of the step, which is exact, and grains that touch
-// one wall and nothing else the midpoint rule (lone_contact.hpp). Pairs that contacts bring together are taken
-// in, and the step is solved again (step_end.hpp).
+// one wall and nothing else the midpoint rule (lone_contact.hpp). Pairs that contacts bring together are
+// taken in, and the step is solved again (step_end.hpp).
 //
 // Departures from the paper: contacts may act before they touch, u_n >= -g/h for a gap g > 0 (contacts that
 // act only when touching crush the packing at h = 6e-3 s), and without restitution; pairs that meet fast

@@ -36,7 +36,7 @@ void check_state(const SimulationState& s, const Scene& scene, const TimePlan& p
   const auto require = [](bool good, const char* what) {
     if (!good) throw InputError(std::string("checkpoint: ") + what + " do not fit the scene");
   };
-  const auto unknowns = static_cast<std::size_t>(unknowns_of(scene.effects));
+  const auto unknowns = static_cast<std::size_t>(unknowns_of(contact_law_of(scene.effects)));
   const std::size_t n = s.bodies.count(), contacts = s.memory.i.size();
   for (const auto* values :
        {&s.bodies.z, &s.bodies.v_x, &s.bodies.v_z, &s.bodies.radius, &s.bodies.inverse_mass})
@@ -135,8 +135,9 @@ Simulation::Simulation(const Scene& scene, int threads, World* world)
   }
   enter_stage(0);
   if (starts_deposited(scene) && laws.gravity)
-    state_.memory = impulses_under_weight(state_.bodies, walls_.shapes_at(0, state_.driven), laws.period,
-                                          *laws.gravity, plan_.stages[0].time_step, laws.unknowns);
+    state_.memory =
+        impulses_under_weight(state_.bodies, walls_.shapes_at(0, state_.driven), laws.period, *laws.gravity,
+                              plan_.stages[0].time_step, unknowns_of(laws.contact_law));
   if (Scene asked = scene; !lists_of(asked).empty()) {
     const auto shapes = walls_.shapes_at(0, state_.driven);
     start_overlaps_ =

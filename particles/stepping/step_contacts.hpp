@@ -55,6 +55,14 @@ struct StepInput {
     });
     return mu;
   }
+  /// What becomes of it where the contact slides.
+  double sliding_friction(double mu, const Candidate& pair) const {
+    each_law(laws, [&](const auto& law) {
+      if constexpr (requires { law.sliding_friction(mu, pair, materials()); })
+        mu = law.sliding_friction(mu, pair, materials());
+    });
+    return mu;
+  }
 };
 
 }  // namespace drumlin::particles

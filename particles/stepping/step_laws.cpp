@@ -19,7 +19,7 @@ StepLaws laws_of(const Scene& scene, const Scales& scales) {
   each_law(laws, [&laws](const auto& law) {
     if constexpr (requires { law.range; }) laws.detection_margin = std::max(laws.detection_margin, law.range);
   });
-  laws.unknowns = unknowns_of(scene.effects);
+  laws.contact_law = contact_law_of(scene.effects);
   laws.energy_ledger = scene.output.energy_ledger;
   laws.material_of_shape = walls_of(scene, scales).material_of_shape;
   if (scene.periodic_x) {
@@ -35,17 +35,20 @@ StepLaws laws_of(const Scene& scene, const Scales& scales) {
 }
 
 StepLaws laws_in(const Scene& scene, const Scales& scales, const Stage& stage) {
-  Scene now = scene;
+  StepLaws laws = laws_of(scene, scales);
+  const auto materials = material_names(scene);
   each_effect(
-      []<class E>(std::optional<E>& effect, const auto& values) {
+      [&]<class E>(const std::optional<E>& effect, const auto& values, auto& law) {
         if constexpr (HasPairs<E>) {
           if (!values) return;
-          static_cast<StageValues<E>&>(*effect) = *values;
-          effect->pairs.clear();
+          E keys = *effect;
+          static_cast<StageValues<E>&>(keys) = *values;
+          keys.pairs.clear();
+          law = law_of(keys, {scales, materials});
         }
       },
-      now.effects, stage.effects);
-  return laws_of(now, scales);
+      scene.effects, stage.effects, laws);
+  return laws;
 }
 
 void set_gravity(const Gravity& gravity, const Scales& scales, StepLaws& laws) {

@@ -11,7 +11,7 @@ namespace drumlin::particles {
 
 /// Those that the scene does not name are empty optionals.
 struct StepLaws : EffectsOf<LawOf> {
-  int unknowns = 1;  ///< of a contact
+  ContactLaw contact_law;
   bool energy_ledger = false;
   Period period;
   std::vector<std::uint8_t> material_of_shape;  ///< empty when no law asks for it

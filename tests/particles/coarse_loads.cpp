@@ -74,7 +74,7 @@ std::vector<double> corrected(const Heap& heap, std::vector<double> r, ThreadTea
   const auto& W = heap.problem.W;
   TeamLoops loops(team);
   for (double& entry : r) entry *= 0.8;
-  StripProblem<double, 2, true> strips;
+  StripProblem<double, Coulomb, true> strips;
   strips.pack(heap.problem, W.plan, {}, r, loops);
   for (const int phase : {0, 1})
     for (int strip = 0; strip < strips.strips(); ++strip) strips.load(strip, phase);

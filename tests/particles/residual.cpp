@@ -44,11 +44,11 @@ TEST(Residual, OnVectorsIsThatOfTheContactsOneByOne) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   mu[20] = nan, u[2 * 11] = nan, u[2 * 12 + 1] = nan, u[2 * 41] = std::numeric_limits<double>::infinity();
   std::vector<double> errors(contacts), smooth(contacts);
-  set_squared_errors<2>(3, inverse_W_nn.data(), mu.data(), r.data(), u.data(), errors);
-  set_squared_errors<1>(1, inverse_W_nn.data(), nullptr, r.data(), u.data(), smooth);
+  set_squared_errors<Coulomb>(3, inverse_W_nn.data(), mu.data(), r.data(), u.data(), errors);
+  set_squared_errors<Frictionless>(1, inverse_W_nn.data(), nullptr, r.data(), u.data(), smooth);
   for (std::size_t k = 0; k < contacts; ++k) {
-    const double one = squared_error<2>(3 / inverse_W_nn[k], &mu[k], &r[2 * k], &u[2 * k]);
-    const double one_smooth = squared_error<1>(1 / inverse_W_nn[k], nullptr, &r[k], &u[k]);
+    const double one = squared_error<Coulomb>(3 / inverse_W_nn[k], &mu[k], &r[2 * k], &u[2 * k]);
+    const double one_smooth = squared_error<Frictionless>(1 / inverse_W_nn[k], nullptr, &r[k], &u[k]);
     EXPECT_EQ(std::isnan(errors[k]), k == 20 || k == 11 || k == 12) << k;
     EXPECT_EQ(std::isnan(smooth[k]), k == 22 || k == 25) << k;
     EXPECT_TRUE(errors[k] == one || (std::isnan(errors[k]) && std::isnan(one))) << k;
@@ -243,7 +243,8 @@ TEST(Residual, RefersToRoundingWhereQIsSmaller) {
   problem.W.add(0, 1, -1, 0);
   problem.q = {-1e-17, -1e-17};
   const std::vector<double> r = {1e-17, 1e-17};
-  EXPECT_EQ(residual_of(problem, std::span<const double>(r)).sinking, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(residual_of(problem, std::span<const double>(r)).sinking,
+            std::numeric_limits<double>::infinity());
   problem.rounding = 1e-13;
   const ContactResidual v = residual_of(problem, std::span<const double>(r));
   EXPECT_NEAR(v.rms, 1e-4, 1e-5);

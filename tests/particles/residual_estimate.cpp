@@ -44,7 +44,7 @@ void expect_estimate(double precision, double mu = 0.4) {
   std::vector<std::int32_t> order;
   const SweepPlan plan = sweep_plan(problem.W.fixed(), problem.W.i, problem.W.j, order);
   TeamLoops loops;
-  StripProblem<T, 2, true> strips;
+  StripProblem<T, Coulomb, true> strips;
   strips.pack(problem, plan, order, r, loops);
   for (const int phase : {0, 1})
     for (int strip = 0; strip < strips.strips(); ++strip) strips.load(strip, phase);
@@ -118,7 +118,7 @@ double error_of_the_estimate(SweepExtrapolation how) {
   std::vector<std::int32_t> order;
   const SweepPlan plan = sweep_plan(problem.W.fixed(), problem.W.i, problem.W.j, order);
   TeamLoops loops;
-  StripProblem<float, 2, true> strips;
+  StripProblem<float, Coulomb, true> strips;
   strips.pack(problem, plan, order, r, loops);
   const auto each = [&](auto work) {
     for (const int phase : {0, 1})
@@ -173,7 +173,7 @@ TEST(ResidualEstimate, OfAContactThatOpensWithoutFrictionIsNothing) {
   for (int a = 0; a < problem.contacts(); ++a) problem.q[2 * a] = 0.1, problem.q[2 * a + 1] = 0;
   std::vector<std::int32_t> order;
   const SweepPlan plan = sweep_plan(problem.W.fixed(), problem.W.i, problem.W.j, order);
-  StripProblem<float, 2, true> strips;
+  StripProblem<float, Coulomb, true> strips;
   strips.pack(problem, plan, order, r, TeamLoops());
   for (const int phase : {0, 1})
     for (int strip = 0; strip < strips.strips(); ++strip) strips.estimate_residual(strip, phase);

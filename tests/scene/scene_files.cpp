@@ -85,7 +85,7 @@ TEST(SceneFile, ReportsEveryProblemAtOnceWithItsPlace) {
             (std::vector<std::string>{
                 "s.toml:4:17: grains.density_kg_m3: is -1 (allowed: number in kg/m3, 1e-06 to 1000000)",
                 "s.toml:14:1: effects.gravty: is unknown; did you mean \"gravity\"? (allowed: cohesion, "
-                "drag, dynamic_friction, friction, gravity, "
+                "drag, dynamic_friction, friction, gravity, kinetic_friction, "
                 "restitution, rolling_resistance, rotating_frame, spin)",
                 "s.toml:22:15: stages.0.time_step_s: is a text (allowed: number in s, >= 1e-12)",
                 "s.toml:25:9: stages.1.turns: excludes duration_s (allowed: one of the two)",
