@@ -21,6 +21,7 @@
 #include "continuum/fem/scene_options.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/basics/provenance.hpp"
+#include "coupling/core/documents/key_reader.hpp"
 #include "coupling/core/files/last_whole.hpp"
 #include "coupling/core/files/text_file.hpp"
 #include "coupling/core/law/ill_posed.hpp"
@@ -76,13 +77,15 @@ void print_added_mesh(double imbalance) {
 
 // Faults of the scene that show only with its law, too, name the file of the scene.
 continuum::FlowCase case_of(const fs::path& scene_file, const continuum::FlowScene& scene,
-                            const RheologyFit& law) {
+                            const RheologyFit& law, const std::vector<std::string>& overrides) {
   try {
     return continuum::flow_case(scene, law);
   } catch (const InputError& error) {
     std::vector<InputProblem> problems = error.problems();
+    const Document document = read_toml(scene_file, overrides);
     for (InputProblem& problem : problems)
-      if (problem.file.empty() && !problem.key.empty()) problem.file = scene_file.string();
+      if (problem.file.empty() && !problem.key.empty())
+        problem = problem_at(document, problem.key, problem.what, problem.allowed);
     throw InputError(problems);
   }
 }
@@ -96,7 +99,7 @@ FlowRequest read_request(const FlowOptions& options) {
                                    .key = "effects.memory",
                                    .what = "has no draws of its law's points, which --law-draws requires",
                                    .allowed = "absent, or no --law-draws"}});
-  asked.flow_case = case_of(options.scene, asked.scene, asked.law);
+  asked.flow_case = case_of(options.scene, asked.scene, asked.law, options.overrides);
   if (options.from) {
     const ResultFolder from = open_flow_run(*options.from);
     for (const char* name : {"state.h5", "flow.json"}) (void)checked_file(from, name);

@@ -88,7 +88,12 @@ FlowProblem drum_without_law(const DrumGeometry& drum, const FlowMesh& mesh, con
                                .growth = mesh.growth};
   problem.regularisation = {regularisation.shear_rate, regularisation.pressure};
   problem.density = drum.nu;
-  problem.slope = drum.slope ? Slope(FixedSlope{*drum.slope}) : Slope(SlopeFromMoment{});
+  problem.slope = SlopeFromMoment{};
+  if (drum.slope) {
+    const double weight = drum.nu * (drum.radius - drum.axis_offset);
+    problem.slope = FixedSlope{*drum.slope};
+    problem.load = StaticLoad{weight * std::sin(*drum.slope), weight * std::cos(*drum.slope)};
+  }
   problem.boundary[Side::top] = NormalSpring{boundary.surface_stiffness};
   problem.boundary[Side::bottom] =
       PrescribedVelocity{[drum, length = boundary.entrainment_length](Vec2 point) {

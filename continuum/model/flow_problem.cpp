@@ -30,14 +30,14 @@ Vec2 rigid_rotation(double rotation, double axis_offset, Vec2 point) {
 
 std::optional<std::string> no_steady_state(const FlowProblem& problem, double I_limit) {
   if (std::holds_alternative<NewtonianLaw>(problem.law)) return std::nullopt;
-  const auto* fixed = std::get_if<FixedSlope>(&problem.slope);
-  if (!fixed && !problem.needed_friction) return std::nullopt;
-  const double mu_limit = strength(problem.law, 0.5 * I_limit, 1).value;  // at p = 1, I = 2 |D|
-  const double mu_needed = problem.needed_friction ? *problem.needed_friction : std::tan(fixed->theta);
+  if (!problem.load) return std::nullopt;
+  const auto [shear, p] = *problem.load;
+  const double mu_limit = strength(problem.law, 0.5 * I_limit * std::sqrt(p), p).value / p;
+  const double mu_needed = shear / p,
+               slope = std::get<FixedSlope>(problem.slope).theta * 180 / std::numbers::pi;
   if (mu_needed <= mu_limit) return std::nullopt;
-  const std::string who = problem.needed_friction
-                              ? std::string("the weight between the walls")
-                              : fmt::format("a slope of {:.2f} deg", fixed->theta * 180 / std::numbers::pi);
+  const std::string who =
+      slope < 90 ? fmt::format("a slope of {:.2f} deg", slope) : std::string("the weight between the walls");
   return fmt::format(
       "no local steady state: {} needs mu = {:.4f}, the law gives {:.4f} at I = {:g} and less below", who,
       mu_needed, mu_limit, I_limit);

@@ -149,6 +149,12 @@ struct MovingSurface {
   std::function<Vec2(Vec2 point, Vec2 left, Vec2 right)> wall_velocity = {};
 };
 
+/// Stresses that statics alone gives, rho0 g d.
+struct StaticLoad {
+  double shear = 0;
+  double pressure = 0;
+};
+
 struct FlowProblem {
   Domain domain;
   std::map<Side, BoundaryCondition> boundary;
@@ -164,8 +170,8 @@ struct FlowProblem {
   double density = 0;                ///< nu; the weight is density (sin theta, -cos theta)
   Slope slope;
   std::function<Vec2(Vec2)> extra_force;  ///< added to the weight; empty: absent
-  /// mu that statics alone asks for somewhere, where that is not the tan of a given slope.
-  std::optional<double> needed_friction;
+  /// Where the weight alone asks most of the law; absent: what drives the flow adapts.
+  std::optional<StaticLoad> load;
   std::optional<Inertia> inertia;               ///< absent: slow flow, 0 = -grad p + div tau + f
   std::optional<RotatingFrame> frame;           ///< absent: the laboratory's
   std::optional<MovingSurface> moving_surface;  ///< absent: the surface stays at z = 0
@@ -180,9 +186,8 @@ double chord_offset(double radius, double area);
 /// z', -Omega x).
 Vec2 rigid_rotation(double rotation, double axis_offset, Vec2 point);
 
-/// Why the weight cannot be carried by a steady flow: mu = tan(theta) of a given slope, or needed_friction,
-/// would need I above `I_limit`; empty if it can. The log law has no bound of its own, so a limit on I has to
-/// say where the law ceases to be one.
+/// Why the weight cannot be carried by a steady flow: its load would need I above `I_limit`; empty if it can.
+/// The log law has no bound of its own, so a limit on I has to say where the law ceases to be one.
 std::optional<std::string> no_steady_state(const FlowProblem& problem, double I_limit = 10);
 
 }  // namespace drumlin::continuum

@@ -133,9 +133,9 @@ FlowProblem gap_without_law(const Gap& gap, const FlowMesh& mesh, const FlowRegu
                                .periodic_x = true,
                                .layers = std::move(layers)};
     add_straight_sides(gap, problem);
-    // Greatest at the wall at rest; on an incline it is tan(slope) everywhere.
-    if (!gap.speed && gap.pressure > 0)
-      problem.needed_friction = gap_shear_stress(gap, 0, gap.depth) / gap_pressure(gap, gap.depth);
+    // Greatest at the wall at rest; on an incline its mu is tan(slope) everywhere.
+    if (!gap.speed)
+      problem.load = StaticLoad{gap_shear_stress(gap, 0, gap.depth), gap_pressure(gap, gap.depth)};
   }
   return problem;
 }

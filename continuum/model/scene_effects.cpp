@@ -41,7 +41,12 @@ void check_threshold(const ThresholdKeys& keys, const RheologyFit& law, bool mem
 
 void check_nonlocal(const FlowEffects& effects, const RheologyFit& law, const StressLaw& mu,
                     std::vector<InputProblem>& problems) {
-  if (!effects.nonlocal->length)
+  if (!is_of_inertial_number(mu))
+    problems.push_back(nonlocal_problem(
+        "effects.nonlocal",
+        "spreads the fluidity of a mu(I), and the law, " + described(law.mu) + ", depends on p besides I",
+        "absent, or a rheology file with another mu.law"));
+  else if (!effects.nonlocal->length)
     check_threshold(threshold_keys(*effects.nonlocal, law), law, effects.memory.has_value(), problems);
   else if (!effects.memory && !tells_fluidity(mu))
     problems.push_back(nonlocal_problem(

@@ -12,7 +12,7 @@ namespace {
 
 // mu(I) of any friction law: at p = 1 the strength is mu and I is 2 |D|.
 double friction_of(const StressLaw& law, double I) {
-  assert(!std::holds_alternative<NewtonianLaw>(law));
+  assert(is_of_inertial_number(law));
   return strength(law, 0.5 * I, 1).value;
 }
 

@@ -9,8 +9,8 @@ namespace drumlin::continuum {
 /// I at which the law gives this friction, without the floor that keeps its mu positive.
 double inertial_number(const LogLaw& law, double mu);
 
-/// I at which a friction law (no NewtonianLaw) gives mu, its floor included; 0 where it needs more than mu to
-/// move, infinity where it never gives as much.
+/// I at which a law whose mu follows from I alone gives mu, its floor included; 0 where it needs more than mu
+/// to move, infinity where it never gives as much.
 double inertial_number(const StressLaw& law, double mu);
 
 /// Bagnold's flow down an incline: layer of height `height` and density nu on a rough bottom at slope theta

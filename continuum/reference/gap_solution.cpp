@@ -62,7 +62,8 @@ double top_speed(const Gap& gap, const Integral& integral, int count) {
 }
 
 double driving_shear_stress(const Gap& gap, const StressLaw& law, const Regularisation& regularisation) {
-  double low = 0, high = 10 * gap.pressure;  // a friction of 10 is out of every law's reach
+  double low = 0, high = 10 * gap.pressure;
+  while (top_speed(gap, Integral(gap, law, regularisation, high), 60) < *gap.speed) high *= 2;
   for (int i = 0; i < 80; ++i) {
     const double middle = 0.5 * (low + high);
     (top_speed(gap, Integral(gap, law, regularisation, middle), 60) < *gap.speed ? low : high) = middle;

@@ -6,7 +6,9 @@
 //   name, sentence: as the file's reader shows them
 //   faults(): what does not hold between the keys
 //   words(): the law in messages
-//   friction(I): mu and I dmu/dI
+// the law itself, as one of
+//   friction(I): mu and I dmu/dI, where the inertial number alone decides (OfInertialNumber)
+//   strength(rate, p): the shear strength, where the pressure does, too
 // and what of this it has
 //   threshold(): mu_s, below which the material stands still
 //   I_min, I_max: the range that it was fitted on
@@ -14,6 +16,7 @@
 #include <cmath>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "coupling/core/documents/key_spec.hpp"
@@ -65,11 +68,15 @@ void describe_range(Visitor& v, Law& t) {
 /// A number in a message: six digits at most.
 std::string in_words(double number);
 
-/// All forms; a Newtonian fluid is no such law.
+/// I alone decides over mu: k, memory and fluidity go with no other law.
 template <class Law>
 concept OfInertialNumber = requires(const Law& law) {
   law.friction(1.0);
 };
+template <class... Laws>
+bool is_of_inertial_number(const std::variant<Laws...>& law) {
+  return std::visit([]<class Law>(const Law&) { return OfInertialNumber<Law>; }, law);
+}
 template <class Law>
 concept Fitted = requires(const Law& law) {
   law.coefficients();

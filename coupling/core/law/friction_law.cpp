@@ -2,10 +2,19 @@
 
 #include <limits>
 
+#include "coupling/core/basics/errors.hpp"
+
 namespace drumlin {
 
 FrictionValue friction_at(const FrictionLaw& law, double I) {
-  return std::visit([I](const auto& of) { return of.friction(I); }, law);
+  return std::visit(
+      [I]<class Law>(const Law& of) -> FrictionValue {
+        if constexpr (OfInertialNumber<Law>)
+          return of.friction(I);
+        else
+          throw InputError("mu of the law \"" + std::string(Law::name) + "\" does not follow from I alone");
+      },
+      law);
 }
 
 std::optional<double> threshold(const FrictionLaw& law) {

@@ -32,7 +32,7 @@ Strength strength(const Law& law, double rate, double pressure) {
   }
 }
 
-/// mu and I dmu/dI at I > 0.
+/// mu and I dmu/dI at I > 0. Throws InputError where the pressure decides, too.
 FrictionValue friction_at(const FrictionLaw& law, double I);
 
 /// mu_s, the friction below which the material of such a law stands still. Absent for a law that creeps at

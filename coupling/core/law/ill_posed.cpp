@@ -32,7 +32,12 @@ double edge(const Bad& bad, double low, double high) {
 std::vector<InertialRange> ill_posed_intervals(const FrictionLaw& law, const StressRatioLaw* k, double I_min,
                                                double I_max) {
   const auto bad = [&](double ln_I) {
-    return std::visit([&](const auto& of) { return ill_posed_at(of, k, std::exp(ln_I)); }, law);
+    return std::visit(
+        [&]<class Law>(const Law& of) {
+          if constexpr (OfInertialNumber<Law>) return ill_posed_at(of, k, std::exp(ln_I));
+          return false;
+        },
+        law);
   };
   const double first = std::log(I_min), last = std::log(I_max);
   const int steps = static_cast<int>(std::ceil((last - first) / 0.01));

@@ -216,6 +216,14 @@ void check_band(const RheologyFile& file, Faults& faults) {
 void check_together(const Document& document, const RheologyFile& file, std::vector<InputProblem>& problems) {
   Faults faults(document, problems);
   faults.refuse("mu", faults_of(file.mu.friction));
+  if (!is_of_inertial_number(file.mu.friction))
+    for (const auto& [table, given] : {std::pair{"k", file.k.has_value()},
+                                       {"memory", file.memory.has_value()},
+                                       {"nonlocal", file.nonlocal.has_value()}})
+      if (given)
+        faults.refuse(table,
+                      "does not go with " + described(file.mu.friction) + ", which depends on p besides I",
+                      "absent, or another mu.law");
   if (file.k) check_together(*file.k, faults);
   if (file.memory) check_together(*file.memory, faults);
   if (file.band && problems.empty()) check_band(file, faults);
