@@ -59,6 +59,7 @@ TEST(RheologyFile, WhatWasWrittenIsReadBack) {
   for (const auto& [mu, words] : std::vector<std::pair<FrictionLaw, std::vector<std::string>>>{
            {ConstantLaw{0.31}, {"mu = 0.31\n"}},
            {JopLaw{0.383, 0.643, 0.279}, {"mu_s = 0.383\n", "mu_2 = 0.643\n", "I_0 = 0.279\n"}},
+           {CohesiveLaw{0.5, 0.3, 1.1}, {"c = 0.5\n", "mu_s = 0.3\n", "b = 1.1\n"}},
            {FrictionTable{{1e-4, 1e-2, 0.1}, {0.2, 0.3, 0.33}},
             {"I = [0.0001, 0.01, 0.1]", "mu = [0.2, 0.3, 0.33]"}}}) {
     fit.mu = mu;
@@ -161,6 +162,14 @@ TEST(RheologyFile, EveryFormOfMuNamesItsFaults) {
   expect("law = \"constant\"\nmu = 1e-9\n", "4:", "0.001 to 10");
   expect("law = \"jop\"\nmu_s = 0.3\nmu_2 = 1e9\nI_0 = 0.3\n", "5:", "mu.mu_2");
   expect("law = \"table\"\nI = [1e-3, 1e-2]\nmu = [0.2, 300]\n", "5:", "mu.mu.1");
+  const std::string cohesive = "law = \"cohesive\"\nc = 0.5\nmu_s = 0.3\nb = 1\n";
+  expect("law = \"cohesive\"\nc = -0.1\nmu_s = 0.3\nb = 1\n", "4:", "mu.c");
+  // What takes mu for a function of I.
+  expect(cohesive + "[k]\nI = [1e-3]\nk = [1]\n", "7:", "k: does not go with mu = 0.3 + 1 I + 0.5/p");
+  expect(cohesive + "[nonlocal]\namplitude = 1\nmu_s = 0.3\n", "7:", "nonlocal: does not go");
+  expect(cohesive + "[memory]\nc = 6\nm = 1\nchi_deg = 20\nc_rho = 100\nI = [1e-5, 1e-3]\nmu = [0.2, 0.3]\n",
+         "7:", "memory: does not go");
+  expect(cohesive + "[band]\ndraws = [1]\n", "8:", "band.draws");
   expect("law = \"log10\"\na = 0.35\nb = 0.013\n", "3:", "\"log10\"");
 }
 

@@ -144,6 +144,13 @@ TEST(DrumProblem, RefusesEffectsThatTheLawDoesNotAllow) {
   RheologyFit law = paper_law();
   law.mu = JopLaw{0.38, 0.64, 0.28};  // a threshold: below it mu does not determine the fluidity
   EXPECT_EQ(refused(scene, law), Keys{"effects.nonlocal"});
+  for (const FlowNonlocal& nonlocal :
+       {FlowNonlocal{.length = 1}, FlowNonlocal{.amplitude = 0.5, .threshold = 0.3}}) {
+    scene.effects.nonlocal = nonlocal;
+    RheologyFit cohesive = paper_law();
+    cohesive.mu = CohesiveLaw{0.5, 0.3, 1};
+    EXPECT_EQ(refused(scene, cohesive), Keys{"effects.nonlocal"});
+  }
   // All faults at once; memory brings a mu(I) of its own, which has no threshold.
   scene.effects.memory = FlowMemory{};
   scene.effects.nonlocal = FlowNonlocal{.amplitude = 0.5};

@@ -87,6 +87,28 @@ TEST(GapSolution, TakesAnyLawAndItsRegularisation) {
   EXPECT_NEAR(shear_rate(jop, {1e-2, 1e-9}, 9, 1e-4), 1e-4 * 1e-2 / (jop.friction(1e-2 / 3).mu * 9), 1e-9);
 }
 
+// Where tan(theta) p < c + mu_s p the layer is a plug, down to y_c; below, with s = sqrt(nu cos(theta)),
+//   b shear_rate = (tan(theta) - mu_s) s y^0.5 - c y^-0.5/s.
+TEST(GapSolution, IsThePlugOnTheShearLayerOfACohesiveIncline) {
+  const std::vector<double> y = {0, 2, 5, 10, 19};
+  const double theta = 25 * degree, s = std::sqrt(nu * std::cos(theta));
+  for (const CohesiveLaw& law :
+       {CohesiveLaw{0.5, 0.3, 1.1}, CohesiveLaw{0.2, 0.35, 0.4}, CohesiveLaw{0, 0.3, 1}}) {
+    const double steep = std::tan(theta) - law.mu_s, y_c = law.c / (s * s * steep);
+    const auto of = [&](double at) {  // integral of b shear_rate
+      return 2.0 / 3 * steep * s * std::pow(at, 1.5) - 2 * law.c / s * std::sqrt(at);
+    };
+    const auto flow = gap_solution(incline(25), law, none, y);
+    for (std::size_t k = 0; k < y.size(); ++k) {
+      const double exact = (of(20) - of(std::max(y[k], y_c))) / law.b;
+      EXPECT_NEAR(flow.speed[k], exact, 1e-5 * exact) << law.words() << " at " << y[k];
+      const double rate =
+          y[k] > y_c ? (steep * s * std::sqrt(y[k]) - law.c / (s * std::sqrt(y[k]))) / law.b : 0;
+      EXPECT_NEAR(flow.shear_rate[k], rate, 1e-8 + 1e-8 * rate) << law.words() << " at " << y[k];
+    }
+  }
+}
+
 TEST(Gap, ComesInUnitsOfItsGrains) {
   const Scales scales = scales_of(3.3e-3, 9.81, 2700);
   const Gap shear = gap_of(FlowPlaneShear{66, 72, 350}, scales, nu);
@@ -178,6 +200,12 @@ TEST(NoSteadyState, IsSaidOfAChuteWhoseWallsCannotCarryTheWeight) {
   expect_has(*reason, "0.4100");
   EXPECT_FALSE(no_steady_state(gap_problem(incline(18), laws[0], {}, {})));
   EXPECT_TRUE(no_steady_state(gap_problem(incline(23), laws[0], {}, {})));
+  // Cohesion counts by its share of the pressure at the wall, 0.82 cos(60 deg) 20.
+  const double missing = std::tan(60 * degree) - 0.3 - 10 * 0.1, weight = 0.82 * 0.5 * 20;
+  EXPECT_TRUE(
+      no_steady_state(gap_problem(incline(60), CohesiveLaw{0.99 * missing * weight, 0.3, 0.1}, {}, {})));
+  EXPECT_FALSE(
+      no_steady_state(gap_problem(incline(60), CohesiveLaw{1.01 * missing * weight, 0.3, 0.1}, {}, {})));
   EXPECT_FALSE(no_steady_state(gap_problem(plane_shear(100), laws[0], {}, {})));  // driven: any stress
 }
 

@@ -54,6 +54,22 @@ TEST(InclineFlow, ConvergesToItsSolutionWithTheOrderOfQ2) {
   EXPECT_NEAR(gap_scalars(flow.field, gap).value("mu_wall"), std::tan(18 * degree), 1e-6);
 }
 
+// The kink between plug and shear layer lies within a cell.
+TEST(InclineFlow, OfGrainsThatHoldTogetherHasAPlug) {
+  const Gap gap = incline_flow(25).gap;
+  const CohesiveLaw law{0.3, 0.3, 1.1};  // a plug of 2.4 d
+  const FlowProblem problem = gap_problem(gap, law, {.surface_cell = 0.25, .surface_zone = 100, .levels = 3},
+                                          {.shear_rate = 1e-5, .pressure = 1e-3});
+  FlowSolverOptions options;
+  options.levels = 3;
+  const FlowField field = converged(problem, options);
+  EXPECT_LT(gap_comparison(field, gap, law, problem.regularisation).mesh_error_max, 1e-3);
+  expect_balances(field, gap, "force_relative_error");
+  const double surface = state_at(field, {0, -0.01}).velocity.x;
+  EXPECT_NEAR(state_at(field, {0, -2}).velocity.x, surface, 1e-3 * surface);
+  EXPECT_LT(state_at(field, {0, -4}).velocity.x, 0.95 * surface);
+}
+
 TEST(ChuteFlow, ConvergesToItsSolutionWithTheOrderOfQ2) {
   const Gap gap = chute_flow().gap;
   const Solved flow = solved(chute_flow());

@@ -47,7 +47,8 @@ TEST(NonlocalLaw, IsTheLocalLawAtAnotherInertialNumber) {
 TEST(StressLaw, SlopesAreThoseOfItsValues) {
   for (const StressLaw& law :
        {StressLaw(paper), StressLaw(JopLaw{0.383, 0.643, 0.279}), StressLaw(ConstantLaw{0.3}),
-        StressLaw(TabulatedLaw({1e-4, 3e-3, 0.1}, {0.2, 0.29, 0.32})), StressLaw(NewtonianLaw{2})})
+        StressLaw(TabulatedLaw({1e-4, 3e-3, 0.1}, {0.2, 0.29, 0.32})), StressLaw(CohesiveLaw{2, 0.3, 1.1}),
+        StressLaw(NewtonianLaw{2})})
     for (const double rate : {1e-6, 1e-2, 3.0})
       for (const double p : {0.1, 7.0}) {
         const double h = 1e-6;  // relative; central differences err by h^2, rounding by 1e-16/h

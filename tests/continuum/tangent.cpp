@@ -20,6 +20,12 @@ TEST(AssembledTangent, IsTheDerivativeOfTheResidualWithKAndNonlocalFluidity) {
   EXPECT_LT(tangent_error(problem, false, 1e-6), 1e-7);
 }
 
+TEST(AssembledTangent, KnowsAStrengthThatThePressureDecidesToo) {
+  FlowProblem problem = small_segment();
+  problem.law = CohesiveLaw{0.7, 0.3, 1.1};
+  EXPECT_LT(tangent_error(problem, false, 1e-6), 1e-7);
+}
+
 TEST(AssembledTangent, KnowsInertiaATurningFrameAndAWallWithFriction) {
   FlowProblem problem = small_segment();
   problem.frame = RotatingFrame{0.3, 0.5};

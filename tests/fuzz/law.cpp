@@ -10,10 +10,9 @@ using namespace drumlin;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return fuzz::read_or_refused([&] {
     const RheologyFit fit = parse_rheology(fuzz::text_of(data, size), "rheology.toml");
-    const FrictionLaw law = fit.mu;
     for (const double I : {1e-9, 1e-6, 1e-3, 1e-1, 1e1}) {
-      const FrictionValue at = friction_at(law, I);
-      if (!(at.mu > 0) || !std::isfinite(at.mu) || !(at.slope >= -1e-9 * at.mu)) std::abort();
+      const Strength at = std::visit([I](const auto& law) { return strength(law, 0.5 * I, 1); }, fit.mu);
+      if (!(at.value > 0) || !std::isfinite(at.value) || !(I * at.d_rate >= -2e-9 * at.value)) std::abort();
     }
     (void)rheology_text(fit);
   });

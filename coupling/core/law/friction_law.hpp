@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "coupling/core/law/cohesive_law.hpp"
 #include "coupling/core/law/constant_law.hpp"
 #include "coupling/core/law/jop_law.hpp"
 #include "coupling/core/law/log_law.hpp"
@@ -17,7 +18,7 @@ namespace drumlin {
 
 /// The one list of the forms (coupling/core/law/form.hpp says what a form is). Code that evaluates a law at
 /// many points visits it once.
-using FrictionLaw = std::variant<LogLaw, LogLinearLaw, ConstantLaw, JopLaw, TabulatedLaw>;
+using FrictionLaw = std::variant<LogLaw, LogLinearLaw, ConstantLaw, JopLaw, TabulatedLaw, CohesiveLaw>;
 
 /// The shear strength, with I = 2|D|/sqrt(p); p > 0 and |D| > 0 are the caller's regularised values (p =
 /// sigma_zz where k = 1).
