@@ -11,6 +11,7 @@
 #include "continuum/fem/detail/point_law.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
 #include "continuum/fem/detail/spring_faces.hpp"
+#include "coupling/core/basics/inertial_number.hpp"
 #include "coupling/core/basics/no_value.hpp"
 
 namespace drumlin::continuum {
@@ -205,7 +206,7 @@ FlowIntegrals FlowField::integrals(Vec2 centre, double law_I_max) const {
       if (s.margin < 0) sums.ill_posed_area += fe.JxW(q);
       const double p = std::max(0.0, s.normal);
       const double I = problem.memory ? inertial_number(problem.memory->law, magnitude(D), p)
-                                      : 2 * magnitude(D) / std::sqrt(p);
+                                      : inertial_number(2 * magnitude(D), p);
       if (I > law_I_max) sums.beyond_law_area += fe.JxW(q);
       const double work = contraction(s.stress, D) * fe.JxW(q);
       sums.dissipation += work;

@@ -14,6 +14,7 @@
 #include "continuum/fem/detail/point_law.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
 #include "continuum/fem/flow_field.hpp"
+#include "coupling/core/basics/inertial_number.hpp"
 #include "coupling/core/files/text_file.hpp"
 
 namespace drumlin::continuum {
@@ -98,7 +99,7 @@ class LaboratoryValues : public dealii::DataPostprocessor<2> {
                                              pascal * (p - stress.zz),
                                              pascal * stress.xz,
                                              rate / second,
-                                             2 * rate / std::sqrt(s.normal),
+                                             inertial_number(2 * rate, s.normal),
                                              s.along / s.normal,
                                              s.viscosity * pascal * second,
                                              s.margin,

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "coupling/core/basics/inertial_number.hpp"
 #include "coupling/core/basics/no_value.hpp"
 #include "coupling/core/results/plane_invariants.hpp"
 
@@ -71,7 +72,7 @@ Values values_at(const PointState& s, Vec2 point, const MapArea& area) {
           at.mu,
           at.k,
           at.axis_angle_deg,
-          2 * s.rate / std::sqrt(s.law_pressure),
+          inertial_number(2 * s.rate, s.law_pressure),
           s.shear_stress / s.law_pressure,
           s.k,
           s.viscosity,

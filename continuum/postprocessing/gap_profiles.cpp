@@ -103,7 +103,7 @@ double mean_I(const Gap& gap, const Points& points, const std::vector<LocalState
   double sum = 0, weight = 0;
   for (std::size_t k = 0; k < states.size(); ++k)
     if (states[k].sigma_zz > 0) {
-      sum += states[k].shear_rate / std::sqrt(states[k].sigma_zz) * points.weight[k / along];
+      sum += inertial_number(states[k].shear_rate, states[k].sigma_zz) * points.weight[k / along];
       weight += points.weight[k / along];
     }
   return sum / weight;
@@ -261,7 +261,7 @@ GapComparison gap_comparison(const FlowField& field, const Gap& gap, const Stres
   double weight = 0;
   for (std::size_t k = 0; k < points.y.size(); ++k)
     if (const double p = gap_pressure(gap, points.y[k]); p > 0) {
-      reading.I += closed.shear_rate[k] / std::sqrt(p) * points.weight[k];
+      reading.I += inertial_number(closed.shear_rate[k], p) * points.weight[k];
       weight += points.weight[k];
     }
   reading.I /= weight;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "coupling/core/basics/no_value.hpp"
+#include "coupling/core/results/layer_ratios.hpp"
 
 namespace drumlin::coupling {
 
@@ -55,20 +56,6 @@ constexpr std::array sampled{Sampled{"v_x", "v_x", true},
                              Sampled{"sigma_zz", "sigma_zz", true},
                              Sampled{"sigma_xz", "sigma_xz", true}};
 
-/// numerator / denominator^power where the denominator presses, relative errors independent.
-ProfileColumn ratio(const char* name, const ProfileColumn& numerator, const ProfileColumn& denominator,
-                    double power) {
-  ProfileColumn result{name, {}, {}};
-  for (std::size_t i = 0; i < numerator.value.size(); ++i) {
-    const double below = denominator.value[i] > 0 ? denominator.value[i] : no_value;
-    result.value.push_back(numerator.value[i] / std::pow(below, power));
-    if (numerator.ci99.empty() || denominator.ci99.empty()) continue;
-    result.ci99.push_back(std::abs(result.value.back()) * std::hypot(numerator.ci99[i] / numerator.value[i],
-                                                                     power * denominator.ci99[i] / below));
-  }
-  return result;
-}
-
 }  // namespace
 
 double bilinear(const MapGrid& grid, const std::vector<double>& values, double x, double z) {
@@ -106,9 +93,7 @@ ProfileSet profile_through(const FieldMap& map, double position, double width, c
     }
     set.columns.push_back(std::move(column));
   }
-  set.columns.push_back(ratio("I", set.column("shear_rate"), set.column("sigma_zz"), 0.5));
-  set.columns.push_back(ratio("mu", set.column("sigma_xz"), set.column("sigma_zz"), 1));
-  set.columns.push_back(ratio("k", set.column("sigma_xx"), set.column("sigma_zz"), 1));
+  add_layer_ratios(set);
   return set;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 // The numbers of a shear flow in layers, from the stress and the shear rate: one definition for both sides.
-#include <cmath>
-
+#include "coupling/core/basics/inertial_number.hpp"
 #include "coupling/core/basics/no_value.hpp"
 #include "coupling/core/results/profile_set.hpp"
 
@@ -21,19 +20,11 @@ struct LayerRatios {
 /// tau:D/(2 |D| p), that of a law: in a creeping bed their axes differ (docs/theory/measurement.md).
 inline LayerRatios layer_ratios(const LayerStress& sigma, double shear_rate) {
   if (!(sigma.zz > 0)) return {};
-  return {shear_rate / std::sqrt(sigma.zz), sigma.xz / sigma.zz, sigma.xx / sigma.zz};
+  return {inertial_number(shear_rate, sigma.zz), sigma.xz / sigma.zz, sigma.xx / sigma.zz};
 }
 
-/// Appends the columns I, mu and k of layers, from those of the shear rate and the stresses.
-inline void add_layer_ratios(ProfileSet& set) {
-  ProfileColumn I{"I", {}, {}}, mu{"mu", {}, {}}, k{"k", {}, {}};
-  const auto of = [&set](const char* name, std::size_t l) { return set.column(name).value[l]; };
-  for (std::size_t l = 0; l < set.z.size(); ++l) {
-    const LayerRatios ratios =
-        layer_ratios({of("sigma_xx", l), of("sigma_zz", l), of("sigma_xz", l)}, of("shear_rate", l));
-    I.value.push_back(ratios.I), mu.value.push_back(ratios.mu), k.value.push_back(ratios.k);
-  }
-  set.columns.insert(set.columns.end(), {I, mu, k});
-}
+/// Appends the columns I, mu and k of layers, from those of the shear rate and the stresses; with intervals
+/// where both parts of a ratio have them, their relative errors independent.
+void add_layer_ratios(ProfileSet& set);
 
 }  // namespace drumlin

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupling/core/basics/inertial_number.hpp"
+
 namespace drumlin {
 
 double nearest_turn(double angle, double period) { return angle - period * std::round(angle / period); }
@@ -22,7 +24,7 @@ PlaneInvariants plane_invariants(const PlaneMatrix& pressure, const PlaneMatrix&
   at.p = (pressure.xx + pressure.zz) / 2;
   at.tau = std::hypot((pressure.xx - pressure.zz) / 2, (pressure.xz + pressure.zx) / 2);
   if (!(at.p > 0)) return at;
-  at.I = at.strain_rate / std::sqrt(at.p);
+  at.I = inertial_number(at.strain_rate, at.p);
   at.mu = at.tau / at.p;
   if (pressure.zz > 0) at.k = pressure.xx / pressure.zz;
   at.axis_angle_deg = axis_angle_deg(pressure, gradient);

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "coupling/core/results/layer_ratios.hpp"
 #include "coupling/core/statistics/straight_line.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 
@@ -136,10 +137,10 @@ BulkFriction bulk_friction(const FindingMap& map, const MapBounds& bounds, const
       by_invariants.log_I.push_back(std::log(at.I));
       by_invariants.y.push_back(at.mu);
     }
-    const double layer_I = at.d_v_x_dz / std::sqrt(at.sigma_zz);
-    if (!in_range(layer_I)) continue;
-    by_ratio.log_I.push_back(std::log(layer_I));
-    by_ratio.y.push_back(at.sigma_xz / at.sigma_zz);
+    const LayerRatios layer = layer_ratios({0, at.sigma_zz, at.sigma_xz}, at.d_v_x_dz);
+    if (!in_range(layer.I)) continue;
+    by_ratio.log_I.push_back(std::log(layer.I));
+    by_ratio.y.push_back(layer.mu);
   }
   return {line_through(by_invariants), line_through(by_ratio), bulk.size(),
           noise_of(map, &FindingNode::mu_ci99, fitted, batches)};
