@@ -103,13 +103,6 @@ TEST(Rings, AreasAreThoseOfTheDiscs) {
   EXPECT_NEAR(disc_area_in_circle(0.3, 2, 0.5), std::numbers::pi / 4, 1e-15);
   // Two circles of radius 1, 1 apart: 2 pi/3 - sqrt(3)/2.
   EXPECT_NEAR(disc_area_in_circle(1, 1, 1), 2 * std::numbers::pi / 3 - std::sqrt(3.0) / 2, 1e-14);
-  const Snapshot snapshot = turning([](double) { return 0.0; });
-  const LayerGrid grid = ring_grid(3, -2, 0.7, 20, 0);
-  const LayerSums sums = sums_of(grid, snapshot);
-  double covered = 0, area = 0;
-  for (const LayerSum& ring : sums.layers) covered += ring.solid;
-  for (const double radius : snapshot.radius) area += std::numbers::pi * radius * radius;
-  EXPECT_NEAR(covered, area, 1e-8);
   double whole = 0;
   for (const double one : ring_grid(0, 0, 1, 50, 7.3).area) whole += one;
   EXPECT_NEAR(whole, std::numbers::pi * 7.3 * 7.3, 1e-10);
@@ -133,22 +126,6 @@ TEST(Rings, StressesAreThoseOfTheBranches) {
     EXPECT_NEAR(value_of(profiles, "sigma_rt", l), -0.5 / area, 1e-6) << l;
     EXPECT_NEAR(value_of(profiles, "sigma_tt", l), 0, 1e-6) << l;
     EXPECT_NEAR(value_of(profiles, "mu", l), -0.25, 1e-6) << l;
-  }
-}
-
-TEST(LayerSums, OfTheStressesIsThatOfTheContactsWhateverTheBins) {
-  const Snapshot column = testing::stacked_columns(6, 9, 0.3);
-  double trace = 0;
-  const FlowSnapshot in_frame = seen(column, {});
-  for (const HalfBranch<2>& b : in_frame.half_branches())
-    trace -= b.force[0] * b.toward[0] + b.force[1] * b.toward[1];
-  for (const LayerGrid& grid :
-       {ring_grid(0, 4.5, 0.6, 30, 0), ring_grid(2.3, 4.5, 0.6, 30, 0), ring_grid(-4, 4.5, 0.6, 30, 0),
-        height_grid(-1, 7, {-1, 7, -1, 11}, 0.3), width_grid(-1, 11, {-1, 7, -1, 11}, 0.7)}) {
-    const LayerSums sums = sums_of(grid, column);
-    double total = 0;
-    for (const LayerSum& ring : sums.layers) total += ring.force_branch[0][0] + ring.force_branch[1][1];
-    EXPECT_NEAR(total, trace, 1e-9);
   }
 }
 
