@@ -26,7 +26,7 @@ namespace drumlin::apps {
 namespace {
 
 namespace fs = std::filesystem;
-using particles::Box;
+using particles::Rectangle;
 
 constexpr double degrees = 180 / std::numbers::pi;
 
@@ -86,7 +86,7 @@ class Tables {
     surface = "# drumlin-history-surface-1\n" + lines +
               "snapshot,time,angle_deg,mass_angle_deg,left_deg,right_deg,repose_deg\n";
     if (options.box.empty()) return;
-    history_.emplace(Box{options.box[0], options.box[1], options.box[2], options.box[3]});
+    history_.emplace(Rectangle{options.box[0], options.box[1], options.box[2], options.box[3]});
     region =
         "# drumlin-history-region-1\n" + lines +
         "snapshot,time,grains,nu,coordination,sigma_xx,sigma_zz,sigma_xz,sigma_zx,sigma_xx_kinetic,"

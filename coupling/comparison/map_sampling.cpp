@@ -1,10 +1,10 @@
 #include "coupling/comparison/map_sampling.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
+#include "coupling/core/basics/bilinear.hpp"
 #include "coupling/core/basics/no_value.hpp"
 #include "coupling/core/results/layer_ratios.hpp"
 
@@ -14,14 +14,11 @@ namespace {
 
 constexpr double rounding = 1e-9;  // of a spacing: a place this near to a node is the node
 
-/// Lower node and share of the upper one; false outside of the axis.
-bool bracket(double at, std::size_t nodes, std::size_t& lower, double& share) {
+/// A place on an axis, counted in nodes; NaN outside of it.
+double on_axis(double at, std::size_t nodes) {
   const double nearest = std::round(at);
   if (std::abs(at - nearest) <= rounding) at = nearest;
-  if (!(at >= 0 && at <= static_cast<double>(nodes - 1))) return false;
-  lower = std::min(static_cast<std::size_t>(at), nodes - 1);
-  share = at - static_cast<double>(lower);
-  return true;
+  return at >= 0 && at <= static_cast<double>(nodes - 1) ? at : no_value;
 }
 
 /// Places whose mean stands for a box: the middles of equal pieces.
@@ -59,18 +56,15 @@ constexpr std::array sampled{Sampled{"v_x", "v_x", true},
 }  // namespace
 
 double bilinear(const MapGrid& grid, const std::vector<double>& values, double x, double z) {
-  std::size_t column = 0, row = 0;
-  double along_x = 0, along_z = 0;
-  if (!bracket((x - grid.x_first) / grid.spacing_x, grid.columns, column, along_x) ||
-      !bracket((z - grid.z_first) / grid.spacing_z, grid.rows, row, along_z))
-    return no_value;
+  const double column = on_axis((x - grid.x_first) / grid.spacing_x, grid.columns);
+  const double row = on_axis((z - grid.z_first) / grid.spacing_z, grid.rows);
+  if (std::isnan(column + row)) return no_value;
   double sum = 0;
-  for (const std::size_t up : {0u, 1u})
-    for (const std::size_t right : {0u, 1u}) {
-      const double weight = (right ? along_x : 1 - along_x) * (up ? along_z : 1 - along_z);
-      // A node that does not count may lie outside of the grid or have no value.
-      if (weight > 0) sum += weight * values[(row + up) * grid.columns + column + right];
-    }
+  each_corner(column, row, [&](double c, double r, double weight) {
+    // A node that does not count may lie outside of the grid or have no value.
+    if (weight > 0)
+      sum += weight * values[static_cast<std::size_t>(r) * grid.columns + static_cast<std::size_t>(c)];
+  });
   return sum;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 // The state of all grains at one instant, frozen: what a run leaves and what measurement reads.
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -21,6 +22,8 @@ struct SnapshotContact {
   double impulse_n = 0;  ///< over the last step; divide by `time_step` for a force
   double impulse_t = 0;
 };
+/// Components along x and z.
+std::array<double, 2> impulse_on_i(const SnapshotContact&);
 
 /// A cell that is periodic in x and z at one instant: its lower left corner, its height (its length is
 /// Snapshot::period_x), the displacement of the image above along x, and the rates of all that: an image that

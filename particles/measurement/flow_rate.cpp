@@ -1,9 +1,9 @@
 #include "particles/measurement/flow_rate.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
+#include "coupling/core/statistics/samples.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 
 namespace drumlin::particles {
@@ -20,8 +20,7 @@ std::optional<FlowRate> flow_rate(std::span<const double> times) {
   for (const double time : times)
     if (time >= from && time < to)
       rates[std::min(time_batches - 1, static_cast<std::size_t>((time - from) / length))] += 1 / length;
-  const double mean = std::accumulate(rates.begin(), rates.end(), 0.0) / static_cast<double>(time_batches);
-  return FlowRate{mean, mean_ci99(rates, time_batches), from, to};
+  return FlowRate{statistics::mean(rates), mean_ci99(rates, time_batches), from, to};
 }
 
 }  // namespace drumlin::particles

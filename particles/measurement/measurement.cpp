@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "coupling/core/basics/errors.hpp"
+#include "coupling/core/statistics/samples.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/grains/cell_sums.hpp"
 #include "particles/measurement/layers/scalars.hpp"
@@ -21,8 +22,8 @@ constexpr double degrees = 180 / std::numbers::pi;
 /// Angle of the frame's x axis below the horizontal; below the laboratory's x axis without gravity.
 double angle_of(const FlowFrame& frame, const Snapshot& snapshot) {
   const FlowFrame upright = frame_at_slope(0, 0, snapshot.gravity_x, snapshot.gravity_z, 0);
-  return std::atan2(-upright.normal(frame.x_axis_x, frame.x_axis_z),
-                    upright.along(frame.x_axis_x, frame.x_axis_z));
+  const auto [along, up] = upright.turned(frame.x_axis_x, frame.x_axis_z);
+  return std::atan2(-up, along);
 }
 
 /// Smaller parts of gravity are rounding of its direction.
@@ -45,7 +46,7 @@ double find_frame(const Recording& recording, const Survey& found, const Measure
   Scalar theta{"theta_deg", Measurement::none, Measurement::none};
   Scalar theta_com{"theta_com_deg", Measurement::none, Measurement::none};
   if (const double radius = place.container_radius; radius > 0) {
-    const double mass_angle = mean_of(found.series.mass_angle);
+    const double mass_angle = statistics::mean(found.series.mass_angle);
     theta_com.value = mass_angle * degrees;
     theta_com.ci99 = mean_ci99(found.series.mass_angle, options.batches) * degrees;
     const SlopeEstimate estimate =
@@ -59,16 +60,11 @@ double find_frame(const Recording& recording, const Survey& found, const Measure
                                  has_line ? estimate.slope.theta : mass_angle);
     place.half_chord = std::sqrt(std::max(0.0, radius * radius - std::pow(estimate.slope.surface_z, 2)));
     place.slice_width = std::min(options.slice_width, place.half_chord / 2);
-    place.z_min = place.x_min = -radius;
-    place.z_max = place.x_max = radius;
+    place.reach = {-radius, radius, -radius, radius};
   } else {
     place.source = place.period > 0 ? FrameSource::domain : FrameSource::gravity;
-    place.slice_width =
-        place.period > 0 ? place.period : std::min(options.slice_width, found.x_max - found.x_min);
-    place.x_min = found.x_min;
-    place.x_max = found.x_max;
-    place.z_min = found.z_min;
-    place.z_max = found.z_max;
+    place.slice_width = place.period > 0 ? place.period : std::min(options.slice_width, found.reach.width());
+    place.reach = found.reach;
   }
   // In a periodic domain nothing varies along x.
   if (options.gradient_step && !(place.period > 0))
@@ -102,7 +98,7 @@ Slices asked_slices(const MeasurementFrame& place, const MeasurementOptions& opt
   }
   if (!options.slices || place.period > 0) return slices;
   std::vector<double> positions = options.slices->positions;
-  const double reach = std::min(place.half_chord, (place.x_max - place.x_min) / 2);
+  const double reach = std::min(place.half_chord, place.reach.width() / 2);
   if (positions.empty())
     for (double share : {-0.6, -0.3, 0.0, 0.3, 0.6}) positions.push_back(share * reach);
   for (double position : positions) {
@@ -134,7 +130,7 @@ void measure_centre(const Slices& slices, const MeasurementOptions& options, dou
   for (const Profile& one : centre.without) result.leave_one_out.push_back(table_of(one));
   result.fits = profile_scalars(result.profiles, options.scalars);
 
-  const auto scalars = each_of(centre, [&](const Profile& profile) {
+  const auto scalars_of = [&](const Profile& profile) {
     const double wall_z = wall_height - profile.surface_z;
     const bool closed = result.place.closed;
     ScalarSet set = packing_scalars(profile, {wall_z, frame_angle, closed}, options);
@@ -142,7 +138,8 @@ void measure_centre(const Slices& slices, const MeasurementOptions& options, dou
       for (const Scalar& scalar : bulk_scalars(profile, wall_z, options.bulk_margin, closed).scalars)
         set.scalars.push_back(scalar);
     return set;
-  });
+  };
+  const auto scalars = each_of(scalars_of, centre);
   for (std::size_t s = 0; s < scalars.whole.scalars.size(); ++s) {
     result.scalars.scalars.push_back(scalars.whole.scalars[s]);
     result.scalars.scalars.back().ci99 =
@@ -170,9 +167,8 @@ void measure_other_slices(const Slices& slices, const MeasurementFrame& place,
 std::size_t scattered_in(const FlowSnapshot& snapshot, const MeasurementFrame& place) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
-    const bool beside =
-        !(place.period > 0) && !(snapshot.x[i] >= place.x_min && snapshot.x[i] <= place.x_max);
-    count += beside || !(snapshot.z[i] >= place.z_min && snapshot.z[i] <= place.z_max) ? 1 : 0;
+    const double x = place.period > 0 ? place.reach.x_min : snapshot.x[i];
+    count += place.reach.holds(x, snapshot.z[i]) ? 0 : 1;
   }
   return count;
 }

@@ -16,6 +16,7 @@
 #include "coupling/core/basics/no_value.hpp"
 #include "coupling/core/documents/csv.hpp"
 #include "coupling/core/files/input_file.hpp"
+#include "coupling/core/statistics/samples.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 
 namespace drumlin::particles {
@@ -73,7 +74,7 @@ std::vector<double> finite_values(const std::vector<LogRow>& rows, double LogRow
 }
 
 Scalar averaged(const std::string& name, const std::vector<double>& values) {
-  return {name, mean_of(values), mean_ci99(values)};
+  return {name, statistics::mean(values), mean_ci99(values)};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "coupling/core/statistics/samples.hpp"
 #include "coupling/core/statistics/straight_line.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 
@@ -25,7 +26,7 @@ constexpr std::size_t least_snapshots = 20;
 constexpr const char* between_halves = " from the first half to the second";
 
 double standard_deviation(std::span<const double> values) {
-  const double mean = mean_of(values);
+  const double mean = statistics::mean(values);
   double squares = 0;
   for (double value : values) squares += (value - mean) * (value - mean);
   return std::sqrt(squares / static_cast<double>(values.size()));
@@ -35,7 +36,7 @@ Drift drift_of(std::span<const double> values, std::size_t batches) {
   if (values.size() < 4) return {};
   const auto first = values.first(values.size() / 2), second = values.subspan(values.size() / 2);
   const std::size_t of_each = std::max<std::size_t>(2, batches / 2);
-  return {mean_of(second) - mean_of(first),
+  return {statistics::mean(second) - statistics::mean(first),
           std::hypot(mean_ci99(first, of_each), mean_ci99(second, of_each))};
 }
 
@@ -48,19 +49,6 @@ void object(Steadiness& result, const std::string& sentence) {
   result.reasons.push_back(sentence);
 }
 
-/// Means of blocks of a series in order of time.
-std::vector<double> block_means(std::span<const double> values, std::size_t batches) {
-  batches = std::min(batches, values.size());
-  std::vector<double> sum(batches, 0.0), count(batches, 0.0);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::size_t b = batch_of(i, values.size(), batches);
-    sum[b] += values[i];
-    count[b] += 1;
-  }
-  for (std::size_t b = 0; b < batches; ++b) sum[b] /= count[b];
-  return sum;
-}
-
 /// What changes from the first half to the second, and by how much.
 std::string change_of(const char* what, const Drift& drift) {
   return fmt::format("the {} by {:.0f} +- {:.0f} %", what, 100 * drift.value, 100 * drift.ci99);
@@ -68,17 +56,16 @@ std::string change_of(const char* what, const Drift& drift) {
 
 /// False when the energy scatters so much that it tells nothing.
 bool judge_energy(const TimeSeries& series, std::size_t batches, Steadiness& result) {
-  const double mean = mean_of(series.kinetic_energy);
+  const double mean = statistics::mean(series.kinetic_energy);
   if (!(mean > 0)) return true;
   result.energy = drift_of(series.kinetic_energy, batches);
   result.energy.value /= mean;
   result.energy.ci99 /= mean;
   result.energy_std = standard_deviation(series.kinetic_energy) / mean;
-  std::vector<double> blocks = block_means(series.kinetic_energy, batches);
-  if (std::all_of(blocks.begin(), blocks.end(), [](double energy) { return energy > 0; })) {
-    for (double& energy : blocks) energy = std::log(energy);
-    result.energy_trend = trend_over(blocks);
-  }
+  std::vector<double> blocks;  // NaN of an energy of 0
+  for (const SeriesSum& block : batch_sums(series.kinetic_energy, batches))
+    blocks.push_back(block.sum > 0 ? std::log(block.mean()) : std::nan(""));
+  if (std::isfinite(statistics::mean(blocks))) result.energy_trend = trend_over(blocks);
   if (counts(result.energy, energy_that_matters)) {
     object(result, change_of("kinetic energy changes", result.energy) + between_halves);
     return true;
@@ -96,7 +83,7 @@ bool judge_energy(const TimeSeries& series, std::size_t batches, Steadiness& res
 
 /// The change of a quantity over its mean; NaN where the mean is not known to half its size.
 Drift relative_drift(std::span<const double> values, std::size_t batches) {
-  const double mean = values.empty() ? 0 : mean_of(values);
+  const double mean = values.empty() ? 0 : statistics::mean(values);
   if (!(std::abs(mean) > 2 * mean_ci99(values, batches))) return {};
   const Drift drift = drift_of(values, batches);
   return {drift.value / mean, drift.ci99 / std::abs(mean)};

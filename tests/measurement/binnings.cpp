@@ -51,8 +51,7 @@ Binned in_layers(const char* name, const FlowSnapshot& snapshot, const LayerGrid
 /// differences of circles' segments, which lose half of the digits.
 Binned in_rings(const Snapshot& snapshot, double lattice) {
   const LayerGrid grid = ring_grid(side / 2, side / 2, 2, side, 0);
-  FlowSnapshot seen;
-  to_flow_frame(snapshot, grid.frame, VelocityKind::instantaneous, seen);
+  const FlowSnapshot seen = in_flow_frame(snapshot, grid.frame);
   Binned rings{"rings", in_bins<LayerSum>(seen, RingBinning(grid), grid.layers()), grid.area, true, 1e-7, {}};
   for (std::size_t l = 0; l < grid.layers(); ++l) {
     const double outer = grid.thickness * static_cast<double>(l + 1);
@@ -79,8 +78,8 @@ Binned in_boxes(const Snapshot& snapshot, const FlowSnapshot& seen) {
   Binned boxes{"boxes", {}, {}, false, 1e-12, {}};
   for (double x = 0; x < side; x += 4)
     for (double z = 0; z < side; z += 6) {
-      const Box box{x, x + 4, z, z + 6};
-      boxes.bins.push_back(in_bins<WholeGrainSum<4>>(seen, BoxBinning(box, period_of(snapshot)), 1)[0]);
+      const Rectangle box{x, x + 4, z, z + 6};
+      boxes.bins.push_back(in_bins<WholeGrainSum<2, 4>>(seen, BoxBinning(box, period_of(snapshot)), 1)[0]);
       boxes.area.push_back(box.area());
     }
   return boxes;
@@ -88,8 +87,7 @@ Binned in_boxes(const Snapshot& snapshot, const FlowSnapshot& seen) {
 
 /// The same snapshot by every binning; bins end between the rows of the lattice.
 std::vector<Binned> by_every_binning(const Snapshot& snapshot, double lattice) {
-  FlowSnapshot seen;
-  to_flow_frame(snapshot, FlowFrame{}, VelocityKind::instantaneous, seen);
+  const FlowSnapshot seen = in_flow_frame(snapshot);
   const Rectangle reach{0, side, 0, side};
   const std::size_t grains = snapshot.x.size();
   std::vector<Binned> all{
@@ -156,8 +154,7 @@ double energy(const Spread<2>& motion) { return motion.product(0, 0) + motion.pr
 
 TEST(Binnings, AddUpToTheWhole) {
   for (const Snapshot& snapshot : {random_network(), uniform_lattice()}) {
-    FlowSnapshot seen;
-    to_flow_frame(snapshot, FlowFrame{}, VelocityKind::instantaneous, seen);
+    const FlowSnapshot seen = in_flow_frame(snapshot);
     Moments<2> whole;
     Spread<2> by_density;
     for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
@@ -223,6 +220,33 @@ TEST(Binnings, LeaveAUniformPackingUniform) {
     }
     EXPECT_EQ(checked, binned.name == "rings" ? 6 : binned.bins.size());
   }
+}
+
+TEST(Moments, OfSpheresAreThoseOfTheirVolumes) {
+  // One sphere of a cubic lattice, pressed by 1, 2 and 3 along the axes and dragged along x by its upper
+  // neighbour.
+  std::array<WholeGrainSum<3>, 1> sums;
+  const Everywhere lattice;
+  const GrainSample<3> sphere{0, {}, {1, -2, 3}, 0.5, 2, 6, 0.25};
+  add_grain(sphere, lattice, sums);
+  for (const double to : {-0.5, 0.5})
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      HalfBranch<3> half;
+      half.toward[axis] = to;
+      half.force[axis] = -2 * to * static_cast<double>(axis + 1);
+      if (axis == 2) half.force[0] = 2 * to * 0.1;
+      add_branch(half, lattice, sums);
+    }
+  const Fields<3> fields = derive(sums[0], Background<3>{1});
+  EXPECT_NEAR(fields.nu, pi / 6, 1e-15);
+  EXPECT_NEAR(sums[0].motion.weight, pi / 3, 1e-15);
+  EXPECT_NEAR(sums[0].motion.mean(2), 3, 1e-15);
+  EXPECT_EQ(fields.coordination, 6);
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = 0; b < 3; ++b) {
+      EXPECT_NEAR(fields.kinetic[a][b], 0, 1e-14);
+      EXPECT_NEAR(fields.contact[a][b], a == b ? 1.0 + a : a == 0 && b == 2 ? -0.1 : 0, 1e-15);
+    }
 }
 
 }  // namespace

@@ -173,7 +173,7 @@ TEST(ClosedCell, ForcesAcrossItsBorderCountInFull) {
 TEST(ClosedCell, ABoxOfItsSizeHoldsEveryGrainWhereverItBegins) {
   for (const double from_x : {0.0, 2.0, 7.3})
     for (const double from_z : {0.0, -4.0, 0.7}) {
-      const Box box{from_x, from_x + side, from_z, from_z + side};
+      const Rectangle box{from_x, from_x + side, from_z, from_z + side};
       const RegionState state = RegionHistory(box).add(scattered(rows()));
       EXPECT_EQ(state.grains, 150u);
       EXPECT_NEAR(state.nu, 150 * pi / 4 / 225, 1e-12);
@@ -189,7 +189,7 @@ TEST(ClosedCell, HistoriesKnowTheGradientOfAMovingCell) {
     const Snapshot next = after(s, time, c.rate_z, c.shear, c.rate_x);
     // Displacements are over the place half-way.
     const double wide = 1 + c.rate_x * time / 2, high = 1 + c.rate_z * time / 2;
-    for (const Box& box : {Box{2, 17, -2, 8}, Box{4, 11, 3, 7}}) {
+    for (const Rectangle& box : {Rectangle{2, 17, -2, 8}, Rectangle{4, 11, 3, 7}}) {
       const auto G = mean_gradient(box, s, next);
       ASSERT_TRUE(G);
       EXPECT_NEAR(G->xz, c.shear / high * (1 - c.rate_x * time / 2 / wide), 1e-12) << step;

@@ -15,11 +15,9 @@ inline std::vector<particles::MapSums> sums_of_snapshots(const particles::Coarse
                                                          const std::vector<particles::Snapshot>& snapshots) {
   std::vector<particles::MapSums> result;
   particles::DisplacementDepositor follower(graining);
-  particles::FlowSnapshot in_frame;
   for (const particles::Snapshot& snapshot : snapshots) {
-    particles::to_flow_frame(snapshot, graining.frame, particles::VelocityKind::window, in_frame);
     result.push_back(particles::empty_sums(graining));
-    add_snapshot(graining, snapshot, in_frame, result.back());
+    add_snapshot(graining, snapshot, in_flow_frame(snapshot, graining.frame), result.back());
     follower.add(snapshot, result.back());
   }
   return result;

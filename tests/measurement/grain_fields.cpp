@@ -11,16 +11,10 @@ namespace {
 
 using std::numbers::pi;
 
-FlowSnapshot seen_in(const Snapshot& snapshot, const FlowFrame& frame = {}) {
-  FlowSnapshot in_frame;
-  to_flow_frame(snapshot, frame, VelocityKind::window, in_frame);
-  return in_frame;
-}
-
 TEST(GrainFields, WhatNobodyKnowsIsNotThere) {
   Snapshot column = testing::stacked_columns(4, 6, 0.2);
   column.spin.clear();
-  const GrainFields fields = grain_fields(column, seen_in(column));
+  const GrainFields fields = grain_fields(column, in_flow_frame(column));
   for (const auto* empty : {&fields.spin, &fields.rotational, &fields.kinetic.xx})
     EXPECT_TRUE(empty->empty());
   EXPECT_EQ(fields.nu.size(), 24u);
@@ -30,7 +24,7 @@ TEST(GrainFields, UnknownContactsGiveNoStress) {
   Snapshot column = testing::stacked_columns(4, 6, 0);
   column.contacts.clear();
   column.contacts_known = false;
-  const GrainFields fields = grain_fields(column, seen_in(column));
+  const GrainFields fields = grain_fields(column, in_flow_frame(column));
   EXPECT_EQ(fields.nu.size(), 24u);
   EXPECT_TRUE(fields.contact.zz.empty());
   EXPECT_TRUE(fields.coordination.empty());
@@ -39,7 +33,7 @@ TEST(GrainFields, UnknownContactsGiveNoStress) {
 TEST(GrainFields, ContactWithTheFloorCarriesStressToo) {
   const int height = 6;
   const Snapshot column = testing::stacked_columns(4, height, 0);
-  const GrainFields fields = grain_fields(column, seen_in(column));
+  const GrainFields fields = grain_fields(column, in_flow_frame(column));
   for (int level = 0; level < height; ++level) {
     const auto i = static_cast<std::size_t>(level);
     // Half a branch each below and above, with the weights of what rests on them.
@@ -54,7 +48,7 @@ TEST(GrainFields, ContactWithTheFloorCarriesStressToo) {
 TEST(GrainFields, GrainWithoutACellHasNoStressButAVelocity) {
   Snapshot column = testing::stacked_columns(4, 6, 0);
   column.radius[3] = 0;
-  const GrainFields fields = grain_fields(column, seen_in(column));
+  const GrainFields fields = grain_fields(column, in_flow_frame(column));
   EXPECT_TRUE(std::isnan(fields.nu[3]));
   EXPECT_TRUE(std::isnan(fields.contact.zz[3]));
   EXPECT_TRUE(std::isnan(fields.rotational[3]));
@@ -65,7 +59,7 @@ TEST(GrainFields, KineticAndRotationalPartsOfAnIdealGas) {
   // Two classes of grains on every place in turn: the mean velocity is known, and so is what remains.
   Snapshot gas = testing::hexagonal_layer(20, 12);
   std::vector<Snapshot> both(2, gas);
-  VelocityMap mean(0, 20, 0, 12, 20);
+  VelocityMap mean({0, 20, 0, 12}, 20);
   for (int s = 0; s < 2; ++s)
     for (std::size_t i = 0; i < gas.x.size(); ++i) {
       const double sign = s == 0 ? 1 : -1;
@@ -74,8 +68,8 @@ TEST(GrainFields, KineticAndRotationalPartsOfAnIdealGas) {
       both[s].spin[i] = 0.4;
     }
   for (int repeat = 0; repeat < 5; ++repeat)
-    for (const Snapshot& snapshot : both) mean.add(seen_in(snapshot));
-  const GrainFields fields = grain_fields(both[0], seen_in(both[0]), &mean);
+    for (const Snapshot& snapshot : both) mean.add(in_flow_frame(snapshot));
+  const GrainFields fields = grain_fields(both[0], in_flow_frame(both[0]), &mean);
   for (std::size_t i = 0; i < gas.x.size(); ++i) {
     EXPECT_NEAR(fields.kinetic.xx[i], fields.nu[i] * 0.09, 1e-12);
     EXPECT_NEAR(fields.kinetic.zz[i], fields.nu[i] * 0.04, 1e-12);
@@ -93,9 +87,9 @@ TEST(VelocityMap, IsLinearBetweenCellsAndSilentWhereGrainsAreFew) {
       cloud.v_x.back() = 3 * cloud.z.back() - cloud.x.back();
       cloud.v_z.back() = 0.5;
     }
-  VelocityMap map(0, 10, 0, 5);
+  VelocityMap map({0, 10, 0, 5});
   EXPECT_TRUE(std::isnan(map.at(3, 3)[0]));
-  map.add(seen_in(cloud));
+  map.add(in_flow_frame(cloud));
   for (const double x : {0.5, 3.3, 7.9, 9.5})
     for (const double z : {0.5, 1.7, 4.4}) {
       EXPECT_NEAR(map.at(x, z)[0], 3 * z - x, 1e-12);

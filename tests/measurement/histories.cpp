@@ -104,7 +104,7 @@ TEST(RegionHistory, OfScatteredGrainsThereIsTheKineticStressAlone) {
 }
 
 TEST(RegionHistory, SharesOfALine) {
-  const Box box{0, 1, 0, 1};
+  const Rectangle box{0, 1, 0, 1};
   EXPECT_NEAR(share_inside(box, -1, 0.5, 2, 0), 0.5, 1e-15);
   EXPECT_NEAR(share_inside(box, 0.25, 0.25, 0.5, 0.5), 1, 1e-15);
   EXPECT_NEAR(share_inside(box, -1, -1, 3, 3), 1.0 / 3, 1e-15);

@@ -15,10 +15,8 @@ using namespace particles;
 namespace {
 
 MapSums sums_of(const CoarseGraining& graining, const Snapshot& snapshot) {
-  FlowSnapshot in_frame;
-  to_flow_frame(snapshot, graining.frame, VelocityKind::window, in_frame);
   MapSums sums = empty_sums(graining);
-  add_snapshot(graining, snapshot, in_frame, sums);
+  add_snapshot(graining, snapshot, in_flow_frame(snapshot, graining.frame), sums);
   return sums;
 }
 
@@ -90,8 +88,7 @@ TEST(MapSums, WallsAndFabricAddUpAndSlopesToNothing) {
     for (std::size_t node = 0; node < sums.nodes.size(); ++node) add_times(1, sums.nodes[node], total);
     const double cell = spacing * spacing;
 
-    FlowSnapshot in_frame;
-    to_flow_frame(snapshot, graining.frame, VelocityKind::window, in_frame);
+    const FlowSnapshot in_frame = in_flow_frame(snapshot, graining.frame);
     double wall_force_x = 0, sides = 0;
     for (const HalfBranch<2>& branch : in_frame.half_branches()) {
       sides += 0.5;

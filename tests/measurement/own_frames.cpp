@@ -10,15 +10,9 @@ namespace drumlin {
 using namespace particles;
 namespace {
 
-FlowSnapshot seen(const Snapshot& snapshot, const FlowFrame& frame) {
-  FlowSnapshot result;
-  to_flow_frame(snapshot, frame, VelocityKind::instantaneous, result);
-  return result;
-}
-
 LayerSums sums_of(const LayerGrid& grid, const Snapshot& snapshot) {
   LayerSums sums = empty_slice(grid, 1).batches[0];
-  add_snapshot(grid, seen(snapshot, grid.frame), sums);
+  add_snapshot(grid, in_flow_frame(snapshot, grid.frame, VelocityKind::instantaneous), sums);
   return sums;
 }
 

@@ -64,8 +64,8 @@ TEST(Scattered, OneGrainFarAwayChangesNoProfileOfTheBlock) {
   ASSERT_TRUE(measured.scattered);
   EXPECT_EQ(measured.scattered->last, 1u);
   EXPECT_DOUBLE_EQ(measured.scattered->mean, 1);
-  EXPECT_NEAR(measured.place.x_max - measured.place.x_min, alone.place.x_max - alone.place.x_min, 1e-9);
-  EXPECT_NEAR(measured.place.z_max - measured.place.z_min, alone.place.z_max - alone.place.z_min, 1e-9);
+  EXPECT_NEAR(measured.place.reach.width(), alone.place.reach.width(), 1e-9);
+  EXPECT_NEAR(measured.place.reach.height(), alone.place.reach.height(), 1e-9);
   EXPECT_NEAR(measured.wall_z, alone.wall_z, 1e-9);
   ASSERT_EQ(measured.profiles.z.size(), alone.profiles.z.size());
   for (const char* name : {"nu", "nu_voronoi", "count"})
@@ -84,7 +84,7 @@ TEST(Scattered, SprayOverAMillionDiametersIsMeasuredInABoundedWindow) {
   ASSERT_TRUE(measured.scattered);
   EXPECT_GT(measured.scattered->mean, 390);  // 1e4 d^2 of 1e12 d^2 hold next to nothing
   EXPECT_LE(static_cast<double>(nodes_of_maps(measured)), most_nodes_for(400));
-  EXPECT_LE(measured.place.z_max - measured.place.z_min, window_limits(400).height + 1e-6);
+  EXPECT_LE(measured.place.reach.height(), window_limits(400).height + 1e-6);
 }
 
 TEST(Scattered, SiloThatRunsOutIsMeasuredWhereItsGrainsLay) {
@@ -102,7 +102,7 @@ TEST(Scattered, SiloThatRunsOutIsMeasuredWhereItsGrainsLay) {
   ASSERT_TRUE(measured.scattered);
   EXPECT_NEAR(measured.scattered->mean, 12 * 19.5, 12);
   EXPECT_EQ(measured.scattered->last, 12u * 39);
-  EXPECT_LT(measured.place.z_max - measured.place.z_min, 11 + 8);  // the cells beneath see grains that leave
+  EXPECT_LT(measured.place.reach.height(), 11 + 8);  // the cells beneath see grains that leave
 }
 
 TEST(Scattered, PeriodicDomainKeepsItsWidth) {
@@ -112,7 +112,7 @@ TEST(Scattered, PeriodicDomainKeepsItsWidth) {
   ASSERT_TRUE(measured.scattered);
   EXPECT_EQ(measured.scattered->last, 1u);
   EXPECT_EQ(measured.place.period, 30);
-  EXPECT_LT(measured.place.z_max - measured.place.z_min, 10 + 1e-6);
+  EXPECT_LT(measured.place.reach.height(), 10 + 1e-6);
 }
 
 TEST(Scattered, WindowTakesTheHeavierOfTwoHeaps) {

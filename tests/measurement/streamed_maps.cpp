@@ -35,8 +35,8 @@ MeasurementFrame place_of(std::size_t snapshots, std::size_t batches) {
   MeasurementFrame place;
   place.frame = frame_at_slope(3, -2, 0, -1, 0.3);
   place.container_radius = radius;
-  place.x_min = place.z_min = -radius;
-  place.x_max = place.z_max = radius;
+  place.reach.x_min = place.reach.z_min = -radius;
+  place.reach.x_max = place.reach.z_max = radius;
   place.snapshots = snapshots;
   place.batches = batches;
   return place;
@@ -87,14 +87,13 @@ TEST(StreamedMaps, AreBitForBitThoseOfAllSumsInMemory) {
 /// Bytes of the reading in memory, most at any time.
 std::size_t most_bytes(std::size_t snapshots, std::size_t batches) {
   MapReading reading = begun_maps(place_of(snapshots, batches), 1, 1, std::make_shared<ScratchFile>());
-  FlowSnapshot in_frame;
   const std::vector<Snapshot> some = turning_drum(4);
   std::size_t most = 0;
   for (std::size_t s = 0; s < snapshots; ++s) {
     Snapshot snapshot = some[s % some.size()];
     snapshot.time = static_cast<double>(s);
-    to_flow_frame(snapshot, reading.graining.frame, VelocityKind::window, in_frame);
-    add_snapshot(snapshot, in_frame, batch_of(s, snapshots, batches), reading);
+    add_snapshot(snapshot, in_flow_frame(snapshot, reading.graining.frame), batch_of(s, snapshots, batches),
+                 reading);
     most = std::max(most, reading.bytes_in_memory());
   }
   return most;

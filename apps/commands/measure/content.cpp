@@ -60,8 +60,8 @@ Json settings_of(const particles::Measurement& m, const particles::MeasurementOp
   if (m.layer_thickness != options.layer_thickness)
     settings["layer_thickness_asked"] = options.layer_thickness;
   if (m.scattered)
-    settings["window"] = {{"x", {m.place.x_min, m.place.x_max}},
-                          {"z", {m.place.z_min, m.place.z_max}},
+    settings["window"] = {{"x", {m.place.reach.x_min, m.place.reach.x_max}},
+                          {"z", {m.place.reach.z_min, m.place.reach.z_max}},
                           {"scattered_mean", m.scattered->mean},
                           {"scattered_most", m.scattered->most},
                           {"scattered_last", m.scattered->last}};

@@ -36,20 +36,18 @@ struct Frames {
   std::size_t batches = 0;
   bool in_mirror = false;
   std::vector<OwnFrame> frames;
-  FlowSnapshot seen;
 };
 
 /// The box of what is measured, from the axes of the measurement back in those of the scene.
 Rectangle reach_of(const MeasurementFrame& place) {
   const particles::FlowFrame& f = place.frame;
-  Rectangle reach{INFINITY, -INFINITY, INFINITY, -INFINITY};
-  for (const double x : {place.x_min, place.x_max})
-    for (const double z : {place.z_min, place.z_max}) {
+  Rectangle reach = particles::no_rectangle;
+  for (const double x : {place.reach.x_min, place.reach.x_max})
+    for (const double z : {place.reach.z_min, place.reach.z_max}) {
       const double there = f.origin_x + x * f.x_axis_x - z * f.x_axis_z;
       const double scene_x = place.in_mirror ? -there : there;
       const double scene_z = f.origin_z + x * f.x_axis_z + z * f.x_axis_x;
-      reach = {std::min(reach.x_min, scene_x), std::max(reach.x_max, scene_x), std::min(reach.z_min, scene_z),
-               std::max(reach.z_max, scene_z)};
+      reach.widen({scene_x, scene_x, scene_z, scene_z});
     }
   return reach;
 }
@@ -102,9 +100,9 @@ void add(Snapshot snapshot, std::size_t batch, Frames& frames) {
   if (frames.in_mirror) snapshot = particles::mirrored(std::move(snapshot));
   snapshot.wall_spin = 0;
   for (OwnFrame& one : frames.frames) {
-    particles::to_flow_frame(snapshot, one.slice.grid.frame, particles::VelocityKind::instantaneous,
-                             frames.seen);
-    add_snapshot(one.slice.grid, frames.seen, one.slice.batches[batch]);
+    const particles::LayerGrid& grid = one.slice.grid;
+    add_snapshot(grid, in_flow_frame(snapshot, grid.frame, particles::VelocityKind::instantaneous),
+                 one.slice.batches[batch]);
   }
 }
 

@@ -24,8 +24,7 @@ particles::GrainRecord record_of(particles::Snapshot snapshot, const particles::
   const bool same_motion = snapshot.time >= measured.first_time();
   if (measured.place.in_mirror) snapshot = particles::mirrored(std::move(snapshot));
   const particles::MeasurementFrame& place = measured.place;
-  particles::FlowSnapshot in_frame;
-  particles::to_flow_frame(snapshot, place.frame, particles::VelocityKind::window, in_frame);
+  particles::FlowSnapshot in_frame = particles::in_flow_frame(snapshot, place.frame);
   particles::GrainRecord record;
   record.step = snapshot.step;
   record.time = snapshot.time;
@@ -53,7 +52,7 @@ Part grains_part(const MeasureOptions& options) {
   Part part;
   part.name = "grains";
   part.reading.begin = [mean_velocity](const particles::MeasurementFrame& place) {
-    mean_velocity->emplace(place.x_min, place.x_max, place.z_min, place.z_max, place.period);
+    mean_velocity->emplace(place.reach, place.period);
   };
   part.reading.add = [mean_velocity](const particles::Snapshot&, const particles::FlowSnapshot& in_frame,
                                      std::size_t) { (*mean_velocity)->add(in_frame); };

@@ -65,8 +65,8 @@ void print_scattered(const particles::Measurement& measured) {
       fmt::format("measured is the window x {:.4g} ... {:.4g} d, z {:.4g} ... {:.4g} d around the densest "
                   "part; outside fly "
                   "{:.4g} grains in the mean, {} at most, {} at the end\n",
-                  place.x_min, place.x_max, place.z_min, place.z_max, measured.scattered->mean,
-                  measured.scattered->most, measured.scattered->last));
+                  place.reach.x_min, place.reach.x_max, place.reach.z_min, place.reach.z_max,
+                  measured.scattered->mean, measured.scattered->most, measured.scattered->last));
 }
 
 /// In a line each: what was not measured though it belongs to the geometry, and how much does not belong.

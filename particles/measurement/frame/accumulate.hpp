@@ -13,22 +13,22 @@ namespace drumlin::particles {
 ///   each_share(branch, action(bin, share, branch))   the shares of a half branch; add_share()
 ///   each_end(branch, action(bin, weight, branch))    what counts at one point of a contact; add_end()
 /// A binning without parts or ends is for bins that ask for none.
-template <class Binning, class Bins>
-void add_grain(const GrainSample<2>& grain, Binning& binning, Bins& bins) {
+template <int D, class Binning, class Bins>
+void add_grain(const GrainSample<D>& grain, Binning& binning, Bins& bins) {
   if constexpr (requires { binning.each_part(grain, [](std::size_t, double) {}); })
     binning.each_part(grain, [&](auto bin, double area) { bins[bin].add_part(area, grain); });
-  binning.each_centre(grain, [&](auto bin, const auto& weight, const GrainSample<2>& seen) {
+  binning.each_centre(grain, [&](auto bin, const auto& weight, const GrainSample<D>& seen) {
     bins[bin].add_centre(weight, seen);
   });
 }
 
-template <class Binning, class Bins>
-void add_branch(const HalfBranch<2>& branch, Binning& binning, Bins& bins) {
+template <int D, class Binning, class Bins>
+void add_branch(const HalfBranch<D>& branch, Binning& binning, Bins& bins) {
   binning.each_share(
-      branch, [&](auto bin, double share, const HalfBranch<2>& seen) { bins[bin].add_share(share, seen); });
-  if constexpr (requires { binning.each_end(branch, [](auto, double, const HalfBranch<2>&) {}); })
+      branch, [&](auto bin, double share, const HalfBranch<D>& seen) { bins[bin].add_share(share, seen); });
+  if constexpr (requires { binning.each_end(branch, [](auto, double, const HalfBranch<D>&) {}); })
     binning.each_end(
-        branch, [&](auto bin, double weight, const HalfBranch<2>& seen) { bins[bin].add_end(weight, seen); });
+        branch, [&](auto bin, double weight, const HalfBranch<D>& seen) { bins[bin].add_end(weight, seen); });
 }
 
 /// All grains, then all half branches.

@@ -19,11 +19,6 @@ std::int64_t index_of(double place) {
 
 double edge_of(std::int64_t index) { return cell_size * static_cast<double>(index); }
 
-void widen(Rectangle& box, const Rectangle& other) {
-  box = {std::min(box.x_min, other.x_min), std::max(box.x_max, other.x_max), std::min(box.z_min, other.z_min),
-         std::max(box.z_max, other.z_max)};
-}
-
 /// Cuts [low, high] to `length`, about `centre` as far as the range allows.
 void shorten(double& low, double& high, double length, double centre) {
   if (high - low <= length) return;
@@ -40,8 +35,7 @@ WindowLimits window_limits(std::size_t grains) {
 }
 
 bool fits(const WindowLimits& limits, const Rectangle& window, double period) {
-  const double width = period > 0 ? period : window.x_max - window.x_min;
-  const double height = window.z_max - window.z_min;
+  const double width = period > 0 ? period : window.width(), height = window.height();
   return height <= limits.height && width * height <= limits.area;
 }
 
@@ -49,12 +43,12 @@ void Occupancy::add(const Snapshot& snapshot, const FlowFrame& frame) {
   period_ = snapshot.period_x;
   most_cells_ = std::max(most_cells_, 16 * snapshot.x.size() + 10'000);
   for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
-    const double x = frame.x_of(snapshot.x[i], snapshot.z[i]), z = frame.z_of(snapshot.x[i], snapshot.z[i]);
+    const auto [x, z] = frame.place(snapshot.x[i], snapshot.z[i]);
     if (!std::isfinite(x + z)) continue;
     const double r = snapshot.radius[i];
     Content& content = cells_[{period_ > 0 ? 0 : index_of(x), index_of(z)}];
     content.area += std::numbers::pi * r * r;
-    widen(content.reach, {x - r, x + r, z - r, z + r});
+    content.reach.widen({x - r, x + r, z - r, z + r});
   }
   ++snapshots_;
   if (cells_.size() > most_cells_) forget_emptier_half();
@@ -80,11 +74,10 @@ Rectangle Occupancy::window(const Rectangle& extent, const WindowLimits& limits)
     shorten(box.z_min, box.z_max, limits.area / period_, found.centre_z);
     return box;
   }
-  const double height = box.z_max - box.z_min, width = box.x_max - box.x_min;
-  if (width * height <= limits.area) return box;
+  if (box.area() <= limits.area) return box;
   // A long low window keeps its height, a slender one its width; others are cut to a square.
-  shorten(box.z_min, box.z_max, std::max(std::sqrt(limits.area), limits.area / width), found.centre_z);
-  shorten(box.x_min, box.x_max, limits.area / (box.z_max - box.z_min), found.centre_x);
+  shorten(box.z_min, box.z_max, std::max(std::sqrt(limits.area), limits.area / box.width()), found.centre_z);
+  shorten(box.x_min, box.x_max, limits.area / box.height(), found.centre_x);
   return box;
 }
 
@@ -108,7 +101,7 @@ Occupancy::Cluster Occupancy::heaviest_cluster(double least) const {
 }
 
 Occupancy::Cluster Occupancy::cluster_of(const std::vector<Cell>& cells) const {
-  Cluster cluster{0, 0, 0, Content{}.reach};
+  Cluster cluster{0, 0, 0, no_rectangle};
   for (const Cell& cell : cells) {
     const double area = cells_.at(cell).area;
     cluster.weight += area;
@@ -117,7 +110,7 @@ Occupancy::Cluster Occupancy::cluster_of(const std::vector<Cell>& cells) const {
     for (std::int64_t column = -1; column <= 1; ++column)
       for (std::int64_t row = -1; row <= 1; ++row)
         if (const auto beside = cells_.find({cell.first + column, cell.second + row}); beside != cells_.end())
-          widen(cluster.box, beside->second.reach);
+          cluster.box.widen(beside->second.reach);
   }
   cluster.centre_x /= cluster.weight;
   cluster.centre_z /= cluster.weight;

@@ -35,11 +35,10 @@ class Occupancy {
   Rectangle window(const Rectangle& extent, const WindowLimits& limits) const;
 
  private:
-  static constexpr double infinite = std::numeric_limits<double>::infinity();
   using Cell = std::pair<std::int64_t, std::int64_t>;
   struct Content {
     double area = 0;
-    Rectangle reach{infinite, -infinite, infinite, -infinite};  ///< of its discs
+    Rectangle reach = no_rectangle;  ///< of its discs
   };
   struct Cluster {
     double weight = 0;  ///< area of the grains, summed over the snapshots

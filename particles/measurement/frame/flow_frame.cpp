@@ -46,33 +46,28 @@ double centre_of_mass_angle(const Snapshot& snapshot, const FlowFrame& upright) 
   for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
     const double weight = snapshot.mass.empty() ? snapshot.radius[i] * snapshot.radius[i] : snapshot.mass[i];
     mass += weight;
-    x += weight * upright.x_of(snapshot.x[i], snapshot.z[i]);
-    z += weight * upright.z_of(snapshot.x[i], snapshot.z[i]);
+    const auto [here_x, here_z] = upright.place(snapshot.x[i], snapshot.z[i]);
+    x += weight * here_x;
+    z += weight * here_z;
   }
   return std::atan2(-x / mass, -z / mass);
 }
 
-CoverageMap::CoverageMap(double x_min, double x_max, double z_min, double z_max)
-    : x_min_(x_min),
-      z_min_(z_min),
-      columns_(static_cast<std::size_t>(std::max(1.0, std::ceil(x_max - x_min)))),
-      rows_(static_cast<std::size_t>(std::max(1.0, std::ceil(z_max - z_min)))),
-      area_(columns_ * rows_, 0.0) {}
-
 void CoverageMap::add(const Snapshot& snapshot, const FlowFrame& frame) {
-  for (std::size_t i = 0; i < snapshot.x.size(); ++i)
-    add_disc(frame.x_of(snapshot.x[i], snapshot.z[i]) - x_min_,
-             frame.z_of(snapshot.x[i], snapshot.z[i]) - z_min_, snapshot.radius[i]);
+  for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
+    const auto [x, z] = frame.place(snapshot.x[i], snapshot.z[i]);
+    add_disc(x - grid_.x_min, z - grid_.z_min, snapshot.radius[i]);
+  }
   ++snapshots_;
 }
 
 void CoverageMap::add_disc(double x, double z, double radius) {
   const auto first = [](double centre, double r) { return std::max(0.0, std::floor(centre - r)); };
-  const auto end = [](double centre, double r, std::size_t cells) {
-    return std::min(static_cast<double>(cells), std::ceil(centre + r));
+  const auto end = [](double centre, double r, double cells) {
+    return std::min(cells, std::ceil(centre + r));
   };
-  const double west = first(x, radius), east = end(x, radius, columns_);
-  const double south = first(z, radius), north = end(z, radius, rows_);
+  const double west = first(x, radius), east = end(x, radius, grid_.columns);
+  const double south = first(z, radius), north = end(z, radius, grid_.rows);
   if (!(west < east && south < north)) return;
   // Area below and to the left of each corner of the cells: one evaluation a corner, where each cell alone
   // would need all four of its own.
@@ -81,7 +76,7 @@ void CoverageMap::add_disc(double x, double z, double radius) {
   for (std::size_t c = 0; c < below.size(); ++c)
     below[c] = disc_area_in_quadrant(radius, west + static_cast<double>(c) - x, south - z);
   for (double row = south; row < north; ++row) {
-    double* cells = &area_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(west)];
+    double* cells = &area_[*grid_.cell(west, row)];
     double left = 0;  // of the row, left of the corner before
     for (std::size_t c = 0; c < below.size(); ++c) {
       const double corner = disc_area_in_quadrant(radius, west + static_cast<double>(c) - x, row + 1 - z);
@@ -93,16 +88,9 @@ void CoverageMap::add_disc(double x, double z, double radius) {
   }
 }
 
-CoverageMap& CoverageMap::operator+=(const CoverageMap& other) {
-  for (std::size_t i = 0; i < area_.size(); ++i) area_[i] += other.area_[i];
-  snapshots_ += other.snapshots_;
-  return *this;
-}
-
-CoverageMap& CoverageMap::operator-=(const CoverageMap& other) {
-  for (std::size_t i = 0; i < area_.size(); ++i) area_[i] -= other.area_[i];
-  snapshots_ -= other.snapshots_;
-  return *this;
+void add_times(double factor, const CoverageMap& from, CoverageMap& to) {
+  for (std::size_t i = 0; i < to.area_.size(); ++i) to.area_[i] += factor * from.area_[i];
+  to.snapshots_ += factor * from.snapshots_;
 }
 
 CoverageBatches::CoverageBatches(const CoverageMap& empty, std::shared_ptr<ScratchFile> file)
@@ -122,22 +110,10 @@ CoverageMap CoverageBatches::batch(std::size_t b) const {
   return map;
 }
 
-double CoverageMap::cell(std::ptrdiff_t column, std::ptrdiff_t row) const {
-  if (column < 0 || row < 0 || column >= static_cast<std::ptrdiff_t>(columns_) ||
-      row >= static_cast<std::ptrdiff_t>(rows_))
-    return 0;
-  return area_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column)];
-}
-
 double CoverageMap::volume_fraction(double x, double z) const {
-  if (snapshots_ == 0) return 0;
-  const double column = x - x_min_ - 0.5, row = z - z_min_ - 0.5;
-  const auto west = static_cast<std::ptrdiff_t>(std::floor(column)),
-             south = static_cast<std::ptrdiff_t>(std::floor(row));
-  const double east_share = column - std::floor(column), north_share = row - std::floor(row);
-  const double lower = (1 - east_share) * cell(west, south) + east_share * cell(west + 1, south);
-  const double upper = (1 - east_share) * cell(west, south + 1) + east_share * cell(west + 1, south + 1);
-  return ((1 - north_share) * lower + north_share * upper) / static_cast<double>(snapshots_);
+  double area = 0;
+  grid_.each_around(x, z, [&](std::size_t cell, double weight) { area += weight * area_[cell]; });
+  return snapshots_ > 0 ? area / snapshots_ : 0;
 }
 
 namespace {

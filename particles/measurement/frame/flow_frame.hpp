@@ -1,6 +1,7 @@
 #pragma once
 // The frame in which everything is measured: x downslope along the surface, z its outward normal, and how its
 // slope is found (docs/theory/measurement.md).
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -9,6 +10,7 @@
 
 #include "coupling/core/files/scratch_file.hpp"
 #include "particles/bodies/snapshot.hpp"
+#include "particles/measurement/frame/unit_cells.hpp"
 
 namespace drumlin::particles {
 
@@ -16,11 +18,11 @@ namespace drumlin::particles {
 struct FlowFrame {
   double origin_x = 0, origin_z = 0;  ///< the drum's axis; without a container the grains' mean x and z = 0
   double x_axis_x = 1, x_axis_z = 0;  ///< unit vector along the surface
-  double x_of(double x, double z) const { return (x - origin_x) * x_axis_x + (z - origin_z) * x_axis_z; }
-  double z_of(double x, double z) const { return (z - origin_z) * x_axis_x - (x - origin_x) * x_axis_z; }
-  /// Components of a vector.
-  double along(double v_x, double v_z) const { return v_x * x_axis_x + v_z * x_axis_z; }
-  double normal(double v_x, double v_z) const { return v_z * x_axis_x - v_x * x_axis_z; }
+  /// The coordinates of a place, and the components of a vector.
+  std::array<double, 2> place(double x, double z) const { return turned(x - origin_x, z - origin_z); }
+  std::array<double, 2> turned(double v_x, double v_z) const {
+    return {v_x * x_axis_x + v_z * x_axis_z, v_z * x_axis_x - v_x * x_axis_z};
+  }
 };
 
 /// Frame with z against gravity (theta = 0), turned clockwise by theta. Gravity of zero counts as pointing to
@@ -38,25 +40,22 @@ double centre_of_mass_angle(const Snapshot& snapshot, const FlowFrame& upright);
 /// Area covered by grains in square cells of side 1 d, summed over snapshots.
 class CoverageMap {
  public:
-  /// Cells over [x_min, x_max] x [z_min, z_max] of the frame.
-  CoverageMap(double x_min, double x_max, double z_min, double z_max);
+  /// Cells over part of the frame.
+  explicit CoverageMap(const Rectangle& over) : grid_(over), area_(grid_.cells(), 0.0) {}
   void add(const Snapshot& snapshot, const FlowFrame& frame);
   /// Batches put together, or one taken out again; all cover the same cells.
-  CoverageMap& operator+=(const CoverageMap& other);
-  CoverageMap& operator-=(const CoverageMap& other);
-  std::size_t snapshots() const { return snapshots_; }
-  double z_min() const { return z_min_; }
-  double z_max() const { return z_min_ + static_cast<double>(rows_); }
+  friend void add_times(double factor, const CoverageMap& from, CoverageMap& to);
+  double z_min() const { return grid_.z_min; }
+  double z_max() const { return grid_.z_min + grid_.rows; }
   /// Mean volume fraction at a point, bilinear between cell centres; 0 outside.
   double volume_fraction(double x, double z) const;
 
  private:
   friend class CoverageBatches;
-  double cell(std::ptrdiff_t column, std::ptrdiff_t row) const;
   void add_disc(double x, double z, double radius);
 
-  double x_min_, z_min_;
-  std::size_t columns_, rows_, snapshots_ = 0;
+  UnitCells grid_;
+  double snapshots_ = 0;
   std::vector<double> area_;
   std::vector<double> corners_;  ///< workspace of add_disc
 };
@@ -74,7 +73,7 @@ class CoverageBatches {
  private:
   struct Stored {
     std::uint64_t place;
-    std::size_t snapshots;
+    double snapshots;
   };
   CoverageMap empty_, newest_;
   std::shared_ptr<ScratchFile> file_;

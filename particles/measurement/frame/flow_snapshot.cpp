@@ -1,6 +1,7 @@
 #include "particles/measurement/frame/flow_snapshot.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/cell_path.hpp"
@@ -13,12 +14,11 @@ void add_contacts(const Snapshot& snapshot, const FlowFrame& frame, FlowSnapshot
   result.contacts.reserve(snapshot.contacts.size());
   result.coordination.assign(snapshot.x.size(), 0);
   for (const SnapshotContact& contact : snapshot.contacts) {
-    const double n_x = contact.normal_x, n_z = contact.normal_z;
-    const double impulse_x = contact.impulse_n * n_x + contact.impulse_t * n_z;
-    const double impulse_z = contact.impulse_n * n_z - contact.impulse_t * n_x;
-    result.contacts.push_back({contact.i, contact.j, frame.along(n_x, n_z), frame.normal(n_x, n_z),
-                               frame.along(impulse_x, impulse_z) / snapshot.time_step,
-                               frame.normal(impulse_x, impulse_z) / snapshot.time_step});
+    const auto [impulse_x, impulse_z] = impulse_on_i(contact);
+    const auto [along, up] = frame.turned(impulse_x, impulse_z);
+    const auto [normal_x, normal_z] = frame.turned(contact.normal_x, contact.normal_z);
+    result.contacts.push_back(
+        {contact.i, contact.j, normal_x, normal_z, along / snapshot.time_step, up / snapshot.time_step});
     for (const std::int32_t grain : {contact.i, contact.j})
       if (grain >= 0) ++result.coordination[static_cast<std::size_t>(grain)];
   }
@@ -66,26 +66,18 @@ void to_flow_frame(const Snapshot& snapshot, const FlowFrame& frame, VelocityKin
   result.radius = snapshot.radius;
   result.density = snapshot.mass;
   const Period period = period_of(snapshot);
-  result.cell.reset();
-  if (snapshot.cell) {  // the frame has the axes of the cell
-    const Point up = period.image_velocity({period.offset, period.length_z});
-    result.cell = {frame.z_of(0, period.origin_z),
-                   period.length_z,
-                   period.offset,
-                   period.length,
-                   up.x,
-                   up.z,
-                   period.image_velocity({period.length, 0}).x};
-  }
+  result.cell = period;  // the frame has the axes of the cell
+  const auto [origin_x, origin_z] = frame.place(period.origin, period.origin_z);
+  result.cell.origin = origin_x, result.cell.origin_z = origin_z;
   for (std::size_t i = 0; i < result.density.size(); ++i)
     result.density[i] /= mass_of_disc(snapshot.radius[i]);
   for (std::size_t i = 0; i < count; ++i) {
     MovingPoint grain{{snapshot.x[i], snapshot.z[i]}, {velocity.x[i], velocity.z[i]}};
     if (snapshot.cell) grain = first_image(period, grain);
-    result.x[i] = frame.x_of(grain.at.x, grain.at.z);
-    result.z[i] = frame.z_of(grain.at.x, grain.at.z);
-    velocity.x[i] = frame.along(grain.velocity.x, grain.velocity.z);
-    velocity.z[i] = frame.normal(grain.velocity.x, grain.velocity.z);
+    const auto [x, z] = frame.place(grain.at.x, grain.at.z);
+    const auto [v_x, v_z] = frame.turned(grain.velocity.x, grain.velocity.z);
+    result.x[i] = x, result.z[i] = z;
+    velocity.x[i] = v_x, velocity.z[i] = v_z;
   }
   result.v_x = std::move(velocity.x);
   result.v_z = std::move(velocity.z);

@@ -3,10 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <ranges>
 #include <vector>
 
+#include "particles/bodies/period.hpp"
 #include "particles/bodies/snapshot.hpp"
 #include "particles/measurement/frame/flow_frame.hpp"
 #include "particles/measurement/frame/moments.hpp"
@@ -20,14 +20,6 @@ struct FlowContact {
   double force_x = 0, force_z = 0;  ///< on i
 };
 
-/// A cell that is periodic in z too at one instant, in the flow frame: its grains stand in z_min ... z_min +
-/// height; the image above is displaced by (offset, height) and faster by (v_x, v_z), the one to the right by
-/// (length, 0) and faster by (right_v_x, 0).
-struct FlowCell {
-  double z_min = 0, height = 0, offset = 0, length = 0;
-  double v_x = 0, v_z = 0, right_v_x = 0;
-};
-
 /// Components in the flow frame, one entry per grain. Velocities and spins are relative to the drum.
 struct FlowSnapshot {
   std::vector<double> x, z, radius, v_x, v_z;
@@ -36,7 +28,7 @@ struct FlowSnapshot {
   std::vector<std::uint16_t> coordination;  ///< loaded contacts, those with walls included
   std::vector<FlowContact> contacts;
   bool contacts_known = true;  ///< false: contacts and coordination say nothing
-  std::optional<FlowCell> cell;
+  Period cell;                 ///< that is periodic in z too, where its grains stand; else open
 
   double density_of(std::size_t grain) const { return density.empty() ? 1 : density[grain]; }
   GrainSample<2> grain(std::size_t i) const {
@@ -81,6 +73,12 @@ enum class VelocityKind { window, instantaneous };
 /// without displacements has only the instantaneous velocity. Grains that have left a cell which is periodic
 /// in z are put back into it. Overwrites `result`, whose memory is used again.
 void to_flow_frame(const Snapshot& snapshot, const FlowFrame& frame, VelocityKind kind, FlowSnapshot& result);
+inline FlowSnapshot in_flow_frame(const Snapshot& snapshot, const FlowFrame& frame = {},
+                                  VelocityKind kind = VelocityKind::window) {
+  FlowSnapshot result;
+  to_flow_frame(snapshot, frame, kind, result);
+  return result;
+}
 
 /// Velocities of the grains relative to a frame that turns with the container (the laboratory without one),
 /// laboratory components.

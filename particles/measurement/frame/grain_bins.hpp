@@ -5,17 +5,16 @@
 
 namespace drumlin::particles {
 
-/// Moments with the area of the grains and their motion by mass; with places where N = 4.
-template <int N>
-struct WholeGrainSum : Moments<2, N> {
-  void add_part(double area, const GrainSample<2>&) { this->solid += area; }
-  void add_centre(double weight, const GrainSample<2>& grain) {
-    Moments<2, N>::add_centre(weight, grain);
-    const auto& v = grain.velocity;
-    if constexpr (N == 4)
-      this->motion.add(weight * grain.mass(), {v[0], v[1], grain.at[0], grain.at[1]});
-    else
-      this->motion.add(weight * grain.mass(), v);
+/// Moments with the area of the grains and their motion by mass; with places where N = 2 D.
+template <int D, int N = D>
+struct WholeGrainSum : Moments<D, N> {
+  void add_part(double area, const GrainSample<D>&) { this->solid += area; }
+  void add_centre(double weight, const GrainSample<D>& grain) {
+    Moments<D, N>::add_centre(weight, grain);
+    Vector<N> q;
+    std::copy(grain.velocity.begin(), grain.velocity.end(), q.begin());
+    if constexpr (N == 2 * D) std::copy(grain.at.begin(), grain.at.end(), q.begin() + D);
+    this->motion.add(weight * grain.mass(), q);
   }
 };
 using GrainSum = WholeGrainSum<2>;
@@ -23,15 +22,9 @@ using GrainSum = WholeGrainSum<2>;
 template <bool each_for_itself>
 struct WholeGrains {
   static std::size_t bin_of(std::size_t grain) { return each_for_itself ? grain : 0; }
-  void each_part(const GrainSample<2>& grain, auto action) const {
-    action(bin_of(grain.index), grain.area());
-  }
-  void each_centre(const GrainSample<2>& grain, auto action) const {
-    action(bin_of(grain.index), 1.0, grain);
-  }
-  void each_share(const HalfBranch<2>& branch, auto action) const {
-    action(bin_of(branch.grain), 1.0, branch);
-  }
+  void each_part(const auto& grain, auto action) const { action(bin_of(grain.index), grain.area()); }
+  void each_centre(const auto& grain, auto action) const { action(bin_of(grain.index), 1.0, grain); }
+  void each_share(const auto& branch, auto action) const { action(bin_of(branch.grain), 1.0, branch); }
 };
 using Everywhere = WholeGrains<false>;
 using EachGrain = WholeGrains<true>;  ///< the region of a grain is its Voronoi cell

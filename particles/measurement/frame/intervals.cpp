@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 #include "coupling/core/statistics/quantiles.hpp"
@@ -31,25 +30,17 @@ double jackknife_ci99(std::span<const double> leave_one_out) {
   return interval_factor(leave_one_out.size()) * std::sqrt(statistics::jackknife_variance(leave_one_out));
 }
 
-double mean_of(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+std::vector<SeriesSum> batch_sums(std::span<const double> series, std::size_t batches) {
+  std::vector<SeriesSum> sums(std::min(batches, series.size()));
+  for (std::size_t i = 0; i < series.size(); ++i)
+    add_times(1, SeriesSum{series[i], 1}, sums[batch_of(i, series.size(), sums.size())]);
+  return sums;
 }
 
 double mean_ci99(std::span<const double> series, std::size_t batches) {
-  batches = std::min(batches, series.size());
-  if (batches < 2) return std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> sum(batches, 0.0), count(batches, 0.0);
-  double total = 0;
-  for (std::size_t i = 0; i < series.size(); ++i) {
-    const std::size_t b = batch_of(i, series.size(), batches);
-    sum[b] += series[i];
-    count[b] += 1;
-    total += series[i];
-  }
-  std::vector<double> leave_one_out(batches);
-  for (std::size_t b = 0; b < batches; ++b)
-    leave_one_out[b] = (total - sum[b]) / (static_cast<double>(series.size()) - count[b]);
-  return jackknife_ci99(leave_one_out);
+  const auto sums = batch_sums(series, batches);
+  return sums.empty() ? std::numeric_limits<double>::quiet_NaN()
+                      : ci99_of(leave_one_out(sums), &SeriesSum::mean);
 }
 
 }  // namespace drumlin::particles

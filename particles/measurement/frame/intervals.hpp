@@ -24,12 +24,6 @@ double interval_factor(std::size_t batches);
 /// or when one of them is not finite.
 double jackknife_ci99(std::span<const double> leave_one_out);
 
-/// Sum over number; NaN without any.
-double mean_of(std::span<const double> values);
-
-/// Half width for the mean of a series in order of time, over `batches` batches of it.
-double mean_ci99(std::span<const double> series, std::size_t batches = 20);
-
 /// Adds sums, a struct of nothing but doubles, number by number.
 template <class Sums>
 void add_times(double factor, const Sums& from, Sums& to) {
@@ -57,11 +51,13 @@ LeaveOneOut<Sums> leave_one_out(const std::vector<Sums>& batches) {
   return result;
 }
 
-/// What a function makes of each.
-template <class Of, class Function>
-auto each_of(const LeaveOneOut<Of>& given, const Function& function) {
-  LeaveOneOut<decltype(function(given.whole))> result{function(given.whole), {}};
-  for (const Of& one : given.without) result.without.push_back(function(one));
+/// What a function makes of each, of one or of several that have the same batches.
+template <class Function, class First, class... Of>
+auto each_of(const Function& function, const LeaveOneOut<First>& first, const LeaveOneOut<Of>&... others) {
+  LeaveOneOut<decltype(function(first.whole, others.whole...))> result{function(first.whole, others.whole...),
+                                                                       {}};
+  for (std::size_t b = 0; b < first.without.size(); ++b)
+    result.without.push_back(function(first.without[b], others.without[b]...));
   return result;
 }
 
@@ -73,5 +69,15 @@ double ci99_of(const LeaveOneOut<Of>& given, const Value& value_of) {
   for (const Of& one : given.without) values.push_back(std::invoke(value_of, one));
   return jackknife_ci99(values);
 }
+
+/// Of some values of a series.
+struct SeriesSum {
+  double sum = 0, count = 0;
+  double mean() const { return sum / count; }
+};
+/// Of the batches of a series in order of time, `batches` or as many as it has values.
+std::vector<SeriesSum> batch_sums(std::span<const double> series, std::size_t batches);
+/// Half width for the mean of a series, over `batches` batches of it; NaN with fewer than two values.
+double mean_ci99(std::span<const double> series, std::size_t batches = 20);
 
 }  // namespace drumlin::particles

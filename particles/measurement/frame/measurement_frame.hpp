@@ -46,9 +46,8 @@ struct MeasurementFrame {
   FrameSource source = FrameSource::gravity;
   double container_radius = 0;  ///< 0 without a drum
   double period = 0;            ///< 0: open
-  bool closed = false;          ///< periodic in z too, from z_min to z_max in the mean
-  double z_min = 0, z_max = 0;  ///< what the layers cover
-  double x_min = 0, x_max = 0;  ///< what the grains reach along x; -+ the radius in a drum
+  bool closed = false;          ///< periodic in z too, over the height of `reach` in the mean
+  Rectangle reach;              ///< of the grains, or the window; -+ the radius in a drum
   double rotation = 0;          ///< of the drum, clockwise
   double slice_width = 0;       ///< of the slice in the middle
   double gradient_step = 0;     ///< used; 0: no derivatives along x

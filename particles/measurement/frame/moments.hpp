@@ -1,7 +1,7 @@
 #pragma once
 // Moments of a region of a packing, and the fields that follow from them: one body for layers, rings, nodes
 // of maps, boxes and the cells of single grains (docs/theory/measurement.md, docs/theory/coarse-graining.md).
-// `D` dimensions: components 0 ... D - 1 are x, z in the plane.
+// `D` dimensions: components 0, 1 are x, z in the plane. Of spheres, D = 3, areas are volumes.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,7 +31,7 @@ struct GrainSample {
   Vector<D> laboratory_velocity{},
       force{};  ///< of this instant; of all its contacts: maps alone ask for them
 
-  double area() const { return std::numbers::pi * radius * radius; }
+  double area() const { return std::numbers::pi * radius * radius * (D == 2 ? 1 : 4 * radius / 3); }
   double mass() const { return density * area(); }
   /// J spin^2 / 2, J = m r^2 / 2.
   double spin_energy() const {

@@ -35,29 +35,18 @@ double kinetic_energy(const Snapshot& snapshot, RelativeVelocities& velocity) {
   return energy;
 }
 
-void widen_extent(const Snapshot& snapshot, bool first, Survey& found) {
-  if (snapshot.x.empty()) return;
-  if (first) {
-    const double x = found.upright.x_of(snapshot.x[0], snapshot.z[0]);
-    const double z = found.upright.z_of(snapshot.x[0], snapshot.z[0]);
-    found.x_min = found.x_max = x;
-    found.z_min = found.z_max = z;
-  }
+void widen_reach(const Snapshot& snapshot, Survey& found) {
   for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
-    const double x = found.upright.x_of(snapshot.x[i], snapshot.z[i]);
-    const double z = found.upright.z_of(snapshot.x[i], snapshot.z[i]), r = snapshot.radius[i];
-    found.x_min = std::min(found.x_min, x - r);
-    found.x_max = std::max(found.x_max, x + r);
-    found.z_min = std::min(found.z_min, z - r);
-    found.z_max = std::max(found.z_max, z + r);
+    const auto [x, z] = found.upright.place(snapshot.x[i], snapshot.z[i]);
+    const double r = snapshot.radius[i];
+    found.reach.widen({x - r, x + r, z - r, z + r});
   }
 }
 
 /// Stress and shear rate of all grains together: NaN without contacts, or with fewer than three grains that
 /// touch something at two heights. Grains in free flight enter by their area alone.
 void add_bulk(const Snapshot& snapshot, const FlowFrame& frame, TimeSeries& series) {
-  FlowSnapshot seen;
-  to_flow_frame(snapshot, frame, VelocityKind::window, seen);
+  const FlowSnapshot seen = in_flow_frame(snapshot, frame);
   std::array<GrainSum, 1> all{};
   accumulate(seen, Everywhere{}, all);
   const Tensor<2> stress = derive(all[0], Background<2>{all[0].solid}).contact;
@@ -78,17 +67,13 @@ void add_bulk(const Snapshot& snapshot, const FlowFrame& frame, TimeSeries& seri
 /// Takes the window in place of an extent beyond the limits.
 void cut_to_window(const Occupancy& occupancy, std::size_t grains, double period, Survey& found) {
   const WindowLimits limits = window_limits(grains);
-  const Rectangle extent{found.x_min, found.x_max, found.z_min, found.z_max};
-  if (fits(limits, extent, period)) return;
-  const Rectangle window = occupancy.window(extent, limits);
+  if (fits(limits, found.reach, period)) return;
+  const Rectangle window = occupancy.window(found.reach, limits);
   found.cut_to_window = true;
   const double middle = period > 0 ? 0 : (window.x_min + window.x_max) / 2;
   found.upright.origin_x += middle * found.upright.x_axis_x;
   found.upright.origin_z += middle * found.upright.x_axis_z;
-  found.x_min = window.x_min - middle;
-  found.x_max = window.x_max - middle;
-  found.z_min = window.z_min;
-  found.z_max = window.z_max;
+  found.reach = {window.x_min - middle, window.x_max - middle, window.z_min, window.z_max};
 }
 
 void refuse_changed_period(double before, double now) {
@@ -112,10 +97,11 @@ Survey survey(const Recording& recording, std::size_t batches, std::shared_ptr<S
     const double radius = snapshot.container_radius;
     if (s == 0) {
       found.upright = upright_frame(snapshot);
-      if (radius > 0) found.coverage.emplace(CoverageMap(-radius, radius, -radius, radius), std::move(file));
+      if (radius > 0)
+        found.coverage.emplace(CoverageMap({-radius, radius, -radius, radius}), std::move(file));
     }
     if (s > 0 && radius <= 0 && !snapshot.cell) refuse_changed_period(period, snapshot.period_x);
-    widen_extent(snapshot, s == 0, found);
+    widen_reach(snapshot, found);
     if (snapshot.cell) {
       found.closed = true;
       found.cell_length += snapshot.period_x / static_cast<double>(recording.count());
@@ -137,7 +123,7 @@ Survey survey(const Recording& recording, std::size_t batches, std::shared_ptr<S
     tick();
   }
   if (found.closed)
-    found.z_min = bottom, found.z_max = top;  // beyond it are images
+    found.reach.z_min = bottom, found.reach.z_max = top;  // beyond it are images
   else if (most_grains > 0)
     cut_to_window(occupancy, most_grains, period, found);
   return found;
@@ -146,13 +132,13 @@ Survey survey(const Recording& recording, std::size_t batches, std::shared_ptr<S
 SlopeEstimate slope_estimate(const Survey& found, double first_guess, const SlopeOptions& options) {
   const CoverageBatches& coverage = *found.coverage;
   CoverageMap total = coverage.batch(0);
-  for (std::size_t b = 1; b < coverage.size(); ++b) total += coverage.batch(b);
+  for (std::size_t b = 1; b < coverage.size(); ++b) add_times(1, coverage.batch(b), total);
   SlopeEstimate estimate;
   estimate.slope = isoline_slope(total, first_guess, options);
   std::vector<double> leave_one_out;
   for (std::size_t b = 0; b < coverage.size() && coverage.size() > 1; ++b) {
     CoverageMap rest = total;
-    rest -= coverage.batch(b);
+    add_times(-1, coverage.batch(b), rest);
     leave_one_out.push_back(isoline_slope(rest, first_guess, options).theta);
   }
   estimate.ci99 = jackknife_ci99(leave_one_out);

@@ -33,10 +33,10 @@ struct Survey {
   FlowFrame upright;  ///< z against gravity; along the laboratory's axes when x is periodic
   std::optional<CoverageBatches> coverage;  ///< nothing without a container
   TimeSeries series;
-  double x_min = 0, x_max = 0, z_min = 0, z_max = 0;  ///< what the grains reach in `upright`, or the window
-  bool closed = false;         ///< periodic in z too: z_min and z_max are the mean ends of the cell
-  double cell_length = 0;      ///< of such a cell, in the mean
-  bool cut_to_window = false;  ///< some grains lie outside of it (dense_window.hpp)
+  Rectangle reach = no_rectangle;  ///< of the grains in `upright`, or the window
+  bool closed = false;             ///< periodic in z too: its z are the mean ends of the cell
+  double cell_length = 0;          ///< of such a cell, in the mean
+  bool cut_to_window = false;      ///< some grains lie outside of it (dense_window.hpp)
 };
 
 /// Reads every snapshot once; `tick` is called after each. Where the grains of an open scene reach further

@@ -4,19 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "particles/measurement/frame/disc_area.hpp"
+
 namespace drumlin::particles {
 namespace {
 
 double cross(PlanePoint a, PlanePoint b) { return a.x * b.z - a.z * b.x; }
 
-/// The part of an edge p + s (q - p), s = begin ... end.
-struct EdgePart {
-  double begin = 0, end = 1;
-  bool empty() const { return !(begin < end); }
-};
-
 /// Where the line through p and q enters and leaves a disc; empty when it passes by.
-EdgePart within_disc(PlanePoint p, PlanePoint q, const Circle& disc) {
+LinePart within_disc(PlanePoint p, PlanePoint q, const Circle& disc) {
   const double along_x = q.x - p.x, along_z = q.z - p.z;
   const double from_x = p.x - disc.x, from_z = p.z - disc.z;
   const double a = along_x * along_x + along_z * along_z;
@@ -56,7 +52,7 @@ void add_crossings(const Circle& circle, std::span<const PlanePoint> corners, st
   const auto add = [&](double x, double z) { angles.push_back(std::atan2(z - circle.z, x - circle.x)); };
   PlanePoint p = corners.back();
   for (const PlanePoint q : corners) {
-    const EdgePart part = within_disc(p, q, circle);
+    const LinePart part = within_disc(p, q, circle);
     if (!part.empty())
       for (const double s : {part.begin, part.end})
         if (s >= 0 && s <= 1) add(p.x + s * (q.x - p.x), p.z + s * (q.z - p.z));
@@ -124,9 +120,9 @@ RoundedArea area_within(const ConvexPolygon& polygon, std::span<const Circle> di
   // Green: half the integral of x dz - z dx along the boundary, edges first.
   PlanePoint p = corners.back();
   for (const PlanePoint q : corners) {
-    EdgePart part;
+    LinePart part;
     for (const Circle& disc : discs) {
-      const EdgePart inside = within_disc(p, q, disc);
+      const LinePart inside = within_disc(p, q, disc);
       part = {std::max(part.begin, inside.begin), std::min(part.end, inside.end)};
     }
     if (!part.empty()) result.area += (part.end - part.begin) * cross(p, q) / 2;

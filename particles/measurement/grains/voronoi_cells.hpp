@@ -3,11 +3,11 @@
 // the container, across a period and at the free surface.
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "particles/bodies/period.hpp"
 #include "particles/bodies/snapshot.hpp"
+#include "particles/detection/cell_grid.hpp"
 #include "particles/measurement/grains/convex_polygon.hpp"
 
 namespace drumlin::particles {
@@ -43,35 +43,27 @@ class VoronoiTessellation {
   VoronoiCell cell(std::size_t grain);
 
  private:
-  struct Site {
-    double x, z, weight;  ///< from the container's axis; in a periodic domain in the first period
-    std::int32_t grain;
-  };
-  /// Sites of similar size in a grid of cells, by rows: those of cell c are start[c] ... start[c + 1].
+  /// What one grid of sites is to a search in it.
   struct Level {
-    double largest_weight, first_reach;
-    double x_min, z_min, cell_x, cell_z;
-    int columns, rows;
-    std::vector<std::int32_t> start;
-    std::vector<Site> sites;
+    double largest_weight = 0, largest_diameter = 0;
   };
   struct Neighbour {
     double x, z, distance_squared, offset;  ///< the cell keeps {(x, z) . p <= offset}
   };
 
-  Level sorted_level(std::vector<Site> sites, double largest_diameter) const;
-  void cut_by_level(const Site& site, const Level& level);
+  double weight(double radius) const;
+  void cut_by_level(std::size_t site, std::size_t level);
   /// False when a neighbour leaves the site no room at all.
-  bool gather(const Site& site, const Level& level, double reach, double most_squared);
-  /// The part of it among the sites of one row, displaced by `shift`.
-  bool gather_row(const Site& site, const Level& level, int row_start, Point shift, double reach,
-                  double most_squared);
+  bool gather(std::size_t site, const CellGrid& grid, double reach, double most_squared);
 
+  VoronoiOptions options_;
   Period period_;  ///< none within a container
   double container_radius_ = 0;
   double tangent_squared_ = 0;  ///< length of the tangents at which cells end, squared
-  std::vector<Site> grains_;    ///< in their own order; grain < 0: takes no part
-  std::vector<Level> levels_;
+  Bodies sites_;  ///< the grains that take part, from the container's axis or in the first period
+  std::vector<std::int32_t> grains_;  ///< the site of each; -1: takes no part
+  GrainGrids grids_;                  ///< of the sites
+  std::vector<Level> levels_;         ///< of each grid
   ConvexPolygon polygon_;
   std::vector<Neighbour> neighbours_;
 };

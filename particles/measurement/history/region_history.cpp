@@ -14,7 +14,7 @@ namespace drumlin::particles {
 namespace {
 
 /// The period with its first one about the middle of the box.
-Period about(const Box& box, Period period) {
+Period about(const Rectangle& box, Period period) {
   period.origin = 0.5 * (box.x_min + box.x_max - period.length);
   period.origin_z = 0.5 * (box.z_min + box.z_max - period.length_z);
   return period;
@@ -30,15 +30,14 @@ PlaneMatrix scaled(double factor, const PlaneMatrix& m) {
   return {factor * m.xx, factor * m.xz, factor * m.zx, factor * m.zz};
 }
 
-using RegionSum = WholeGrainSum<4>;
+using RegionSum = WholeGrainSum<2, 4>;
 
 /// Of the motion in the laboratory at the instant of the snapshot.
-RegionSum sum_of(const Box& box, Snapshot snapshot) {
+RegionSum sum_of(const Rectangle& box, Snapshot snapshot) {
   snapshot.wall_spin = 0;
-  FlowSnapshot seen;
-  to_flow_frame(snapshot, FlowFrame{}, VelocityKind::instantaneous, seen);
   std::array<RegionSum, 1> sum{};
-  accumulate(seen, BoxBinning(box, period_at(snapshot)), sum);
+  accumulate(in_flow_frame(snapshot, {}, VelocityKind::instantaneous), BoxBinning(box, period_at(snapshot)),
+             sum);
   return sum[0];
 }
 
@@ -59,34 +58,24 @@ std::optional<PlaneMatrix> affine_matrix(const Spread<4>& fit) {
 
 }  // namespace
 
-BoxBinning::BoxBinning(const Box& box, const Period& period)
+BoxBinning::BoxBinning(const Rectangle& box, const Period& period)
     : period_(about(box, period)),
       open_(box),
       middle_{0.5 * (box.x_min + box.x_max), 0.5 * (box.z_min + box.z_max)} {
   constexpr double infinity = std::numeric_limits<double>::infinity(), nearly = 1 - 1e-9;
-  if (!period.open() && box.x_max - box.x_min > nearly * period.length)
-    open_.x_min = -infinity, open_.x_max = infinity;
-  if (!period.open_z() && box.z_max - box.z_min > nearly * period.length_z)
+  if (!period.open() && box.width() > nearly * period.length) open_.x_min = -infinity, open_.x_max = infinity;
+  if (!period.open_z() && box.height() > nearly * period.length_z)
     open_.z_min = -infinity, open_.z_max = infinity;
 }
 
-double share_inside(const Box& box, double x, double z, double dx, double dz) {
-  double from = 0, to = 1;
-  const auto cut = [&](double start, double step, double low, double high) {
-    if (step == 0) {
-      if (start < low || start > high) to = from;
-      return;
-    }
-    const double a = (low - start) / step, b = (high - start) / step;
-    from = std::max(from, std::min(a, b));
-    to = std::min(to, std::max(a, b));
-  };
-  cut(x, dx, box.x_min, box.x_max);
-  cut(z, dz, box.z_min, box.z_max);
-  return std::max(0.0, to - from);
+double share_inside(const Rectangle& box, double x, double z, double dx, double dz) {
+  LinePart part;
+  part.cut(x, dx, box.x_min, box.x_max);
+  part.cut(z, dz, box.z_min, box.z_max);
+  return std::max(0.0, part.end - part.begin);
 }
 
-std::optional<PlaneMatrix> mean_gradient(const Box& box, const Snapshot& before, const Snapshot& now) {
+std::optional<PlaneMatrix> mean_gradient(const Rectangle& box, const Snapshot& before, const Snapshot& now) {
   if (!(now.time > before.time)) return std::nullopt;
   std::optional<CellPath> path;
   if (before.cell && now.cell) path.emplace(*cell_instant(before), *cell_instant(now));
@@ -111,14 +100,14 @@ std::optional<PlaneMatrix> mean_gradient(const Box& box, const Snapshot& before,
 }
 
 const RegionState& RegionHistory::add(const Snapshot& snapshot) {
-  if (snapshot.period_x > 0 && box_.x_max - box_.x_min > (1 + 1e-9) * snapshot.period_x)
+  if (snapshot.period_x > 0 && box_.width() > (1 + 1e-9) * snapshot.period_x)
     throw InputError(
         fmt::format("a box {} d wide in a domain with a period of {} d (allowed: up to the period)",
-                    box_.x_max - box_.x_min, snapshot.period_x));
-  if (snapshot.cell && box_.z_max - box_.z_min > (1 + 1e-9) * snapshot.cell->height)
+                    box_.width(), snapshot.period_x));
+  if (snapshot.cell && box_.height() > (1 + 1e-9) * snapshot.cell->height)
     throw InputError(
         fmt::format("a box {} d high in a cell {} d high (allowed: up to the height of the cell)",
-                    box_.z_max - box_.z_min, snapshot.cell->height));
+                    box_.height(), snapshot.cell->height));
   RegionState next;
   next.time = snapshot.time;
   next.strain = state_.strain;

@@ -12,14 +12,7 @@
 
 namespace drumlin::particles {
 
-/// Part of the plane, laboratory axes, d.
-struct Box {
-  double x_min = 0, x_max = 0, z_min = 0, z_max = 0;
-  double area() const { return (x_max - x_min) * (z_max - z_min); }
-  bool holds(double x, double z) const { return x >= x_min && x < x_max && z >= z_min && z < z_max; }
-};
-
-/// Mean over a box at one instant, dimensionless, laboratory axes.
+/// Mean over a box, laboratory axes, at one instant, dimensionless.
 struct RegionState {
   double time = 0;
   std::size_t grains = 0;   ///< with their centres in the box
@@ -33,14 +26,14 @@ struct RegionState {
 };
 
 /// The share of a straight line from (x, z) to (x + dx, z + dz) that lies in the box, 0 to 1.
-double share_inside(const Box& box, double x, double z, double dx, double dz);
+double share_inside(const Rectangle& box, double x, double z, double dx, double dz);
 
 /// The binning by one box (accumulate.hpp); of the images of a grain the one nearest to its middle, from
 /// which places are counted. A box as wide as the period has no sides, one as high as the cell neither floor
 /// nor top.
 class BoxBinning {
  public:
-  BoxBinning(const Box& box, const Period& period);
+  BoxBinning(const Rectangle& box, const Period& period);
 
   void each_part(const GrainSample<2>& grain, auto action) const {
     each_centre(grain,
@@ -71,7 +64,7 @@ class BoxBinning {
 
  private:
   Period period_;
-  Box open_;
+  Rectangle open_;
   Point middle_;
 };
 
@@ -79,17 +72,17 @@ class BoxBinning {
 /// matrix of the least squares fit of displacement over the place half-way, divided by the time. The place
 /// half-way makes the symmetric part of a rigid turn, however large, nought to rounding. Nothing with fewer
 /// than four grains, or when the snapshots have not the same number of them.
-std::optional<PlaneMatrix> mean_gradient(const Box& box, const Snapshot& before, const Snapshot& now);
+std::optional<PlaneMatrix> mean_gradient(const Rectangle& box, const Snapshot& before, const Snapshot& now);
 
 /// One state after the other; the snapshot before is kept for the displacements.
 class RegionHistory {
  public:
-  explicit RegionHistory(const Box& box) : box_(box) {}
+  explicit RegionHistory(const Rectangle& box) : box_(box) {}
   /// Throws InputError where the box is wider than the period, or higher than the cell.
   const RegionState& add(const Snapshot& snapshot);
 
  private:
-  Box box_;
+  Rectangle box_;
   std::optional<Snapshot> before_;
   RegionState state_;
 };

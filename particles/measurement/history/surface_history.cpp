@@ -65,7 +65,7 @@ std::vector<Place> tops(const Snapshot& snapshot, const std::vector<bool>& resti
   std::map<double, double> highest;
   for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
     const double r = snapshot.radius[i];
-    const double x = frame.x_of(snapshot.x[i], snapshot.z[i]), z = frame.z_of(snapshot.x[i], snapshot.z[i]);
+    const auto [x, z] = frame.place(snapshot.x[i], snapshot.z[i]);
     if (!resting[i] || !std::isfinite(x + z)) continue;
     for (double column = std::floor(x - r); column <= std::floor(x + r); ++column) {
       const double away = std::clamp(x, column, column + 1) - x;

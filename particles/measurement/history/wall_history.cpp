@@ -55,15 +55,14 @@ std::vector<WallState> wall_states(const Snapshot& snapshot, std::size_t walls,
     if (contact.j >= 0) continue;
     const auto wall = static_cast<std::size_t>(wall_of_shape[static_cast<std::size_t>(-1 - contact.j)]);
     WallState& state = states[wall];
-    const double n_x = contact.normal_x, n_z = contact.normal_z;
-    const double f_n = contact.impulse_n / snapshot.time_step, f_t = contact.impulse_t / snapshot.time_step;
-    const double f_x = f_n * n_x + f_t * n_z, f_z = f_n * n_z - f_t * n_x;
+    auto [f_x, f_z] = impulse_on_i(contact);
+    f_x /= snapshot.time_step, f_z /= snapshot.time_step;
     state.force_x -= f_x;
     state.force_z -= f_z;
     if (const Container* round = container[wall]) {
       const auto i = static_cast<std::size_t>(contact.i);
-      const double x = snapshot.x[i] - snapshot.radius[i] * n_x - round->center.x;
-      const double z = snapshot.z[i] - snapshot.radius[i] * n_z - round->center.z;
+      const double x = snapshot.x[i] - snapshot.radius[i] * contact.normal_x - round->center.x;
+      const double z = snapshot.z[i] - snapshot.radius[i] * contact.normal_z - round->center.z;
       add_to_container(x, z, f_x, f_z, round->radius, state);
     }
   }

@@ -24,8 +24,8 @@ std::size_t LayerGrid::layer_at(double z) const {
 LayerGrid LayerGrid::in_cell(const FlowSnapshot& snapshot) const {
   LayerGrid grid = *this;
   if (!closed) return grid;
-  grid.z_min = snapshot.cell->z_min;
-  grid.thickness = snapshot.cell->height / static_cast<double>(layers());
+  grid.z_min = snapshot.cell.origin_z;
+  grid.thickness = snapshot.cell.length_z / static_cast<double>(layers());
   return grid;
 }
 

@@ -143,15 +143,10 @@ void LayerBinning::each_share(const HalfBranch<2>& branch, Action action) const 
   const auto [x, z] = branch.at;
   const auto [toward_x, toward_z] = branch.toward;
   if (std::min(x, x + toward_x) > grid_.x_max || std::max(x, x + toward_x) < grid_.x_min) return;
-  double begin = 0, end = 1;  // parameter along the branch, between the sides of the slice
-  if (toward_x != 0) {
-    const double west = (grid_.x_min - x) / toward_x, east = (grid_.x_max - x) / toward_x;
-    begin = std::max(begin, std::min(west, east));
-    end = std::min(end, std::max(west, east));
-  } else if (x < grid_.x_min || x > grid_.x_max) {
-    return;
-  }
-  if (!(begin < end)) return;
+  LinePart between_sides;
+  between_sides.cut(x, toward_x, grid_.x_min, grid_.x_max);
+  const auto [begin, end] = between_sides;
+  if (between_sides.empty()) return;
 
   const double z_min = grid_.z_min, thickness = grid_.thickness;
   const double low = z + (toward_z > 0 ? begin : end) * toward_z;

@@ -27,8 +27,9 @@ void add_snapshot(const LayerGrid& grid, const FlowSnapshot& snapshot, LayerSums
   known.densities += snapshot.density.empty() ? 0 : 1;
   if (grid.rings) return accumulate(snapshot, RingBinning(grid), sums.layers);
   if (grid.closed) {
-    known.cell_area += snapshot.cell->length * snapshot.cell->height;
-    known.cell_jump += snapshot.cell->v_x;
+    const Period& cell = snapshot.cell;
+    known.cell_area += cell.length * cell.length_z;
+    known.cell_jump += cell.image_velocity({cell.offset, cell.length_z}).x;
   }
   const LayerGrid here = grid.in_cell(snapshot);
   accumulate(snapshot, LayerBinning(here), sums.layers);

@@ -33,7 +33,7 @@ LayerValues layer_at(const Profile& profile, double z) {
   return found == profile.layers.end() ? LayerValues{} : *found;
 }
 
-void set_gradients(Profile& centre, const Profile& west, const Profile& east, double distance) {
+Profile with_gradients(Profile centre, const Profile& west, const Profile& east, double distance) {
   auto& layers = centre.layers;
   centre.known.gradients = true;
   for (std::size_t l = 0; l < layers.size(); ++l) {
@@ -45,6 +45,7 @@ void set_gradients(Profile& centre, const Profile& west, const Profile& east, do
     for (const auto& [slope, value] : along_z)
       layers[l].*slope = (above.*value - below.*value) / (above.z - below.z);
   }
+  return centre;
 }
 
 }  // namespace
@@ -65,25 +66,24 @@ LayerGrid width_grid(double z_from, double z_to, const Rectangle& reach, double 
 }
 
 LeaveOneOut<Profile> slice_profiles(const Slice& slice, double surface_nu) {
-  return each_of(leave_one_out(slice.batches), [&](const LayerSums& sums) {
-    const double surface = surface_height(slice.grid, sums, surface_nu);
-    return profile_of(slice.grid, sums, std::isfinite(surface) ? surface : 0);
-  });
+  return each_of(
+      [&](const LayerSums& sums) {
+        const double surface = surface_height(slice.grid, sums, surface_nu);
+        return profile_of(slice.grid, sums, std::isfinite(surface) ? surface : 0);
+      },
+      leave_one_out(slice.batches));
 }
 
 LeaveOneOut<Profile> slice_profiles(const Slice& slice, const LeaveOneOut<Profile>& surfaces) {
-  const LeaveOneOut<LayerSums> sums = leave_one_out(slice.batches);
-  LeaveOneOut<Profile> result{profile_of(slice.grid, sums.whole, surfaces.whole.surface_z), {}};
-  for (std::size_t b = 0; b < sums.without.size(); ++b)
-    result.without.push_back(profile_of(slice.grid, sums.without[b], surfaces.without[b].surface_z));
-  return result;
+  return each_of([&](const LayerSums& sums,
+                     const Profile& surface) { return profile_of(slice.grid, sums, surface.surface_z); },
+                 leave_one_out(slice.batches), surfaces);
 }
 
 void add_gradients(LeaveOneOut<Profile>& centre, const Slice& west, const Slice& east, double distance) {
-  const auto before = slice_profiles(west, centre), behind = slice_profiles(east, centre);
-  set_gradients(centre.whole, before.whole, behind.whole, distance);
-  for (std::size_t b = 0; b < centre.without.size(); ++b)
-    set_gradients(centre.without[b], before.without[b], behind.without[b], distance);
+  centre = each_of([&](const Profile& one, const Profile& before,
+                       const Profile& behind) { return with_gradients(one, before, behind, distance); },
+                   centre, slice_profiles(west, centre), slice_profiles(east, centre));
 }
 
 }  // namespace drumlin::particles

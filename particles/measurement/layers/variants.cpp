@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "coupling/core/basics/errors.hpp"
+#include "coupling/core/statistics/samples.hpp"
 #include "particles/measurement/layers/scalars.hpp"
 
 namespace drumlin::particles {
@@ -73,8 +74,10 @@ LayerGrid slice_grid(const MeasurementFrame& place, double position, double widt
         "the slice at {} d leaves the drum of radius {} d: none {} d wide may lie further out than "
         "{} d",
         position, radius, width, radius - width / 2));
-  if (place.closed) return closed_grid(place.frame, thickness, place.z_min, place.z_max, place.period);
-  return layer_grid(place.frame, position, width, thickness, place.z_min, place.z_max, radius, place.period);
+  if (place.closed)
+    return closed_grid(place.frame, thickness, place.reach.z_min, place.reach.z_max, place.period);
+  return layer_grid(place.frame, position, width, thickness, place.reach.z_min, place.reach.z_max, radius,
+                    place.period);
 }
 
 std::vector<VariantSlice> variant_slices(const Survey& found, const MeasurementFrame& place,
@@ -95,7 +98,7 @@ std::vector<VariantSlice> variant_slices(const Survey& found, const MeasurementF
   add("instantaneous velocity", width, thickness);
   variants.back().own_view = VelocityKind::instantaneous;
   if (place.source == FrameSource::isoline) {
-    const double mass_angle = mean_of(found.series.mass_angle);
+    const double mass_angle = statistics::mean(found.series.mass_angle);
     MeasurementFrame turned = place;
     // `upright` is the frame of angle 0: turned clockwise by the angle of the centre of mass.
     const FlowFrame& up = found.upright;
@@ -147,7 +150,8 @@ std::vector<ScalarVariant> scalar_variants(const std::vector<VariantSlice>& vari
                   [](const Scalar& s) { return s.name.find("_dx") == std::string::npos; });
   }
   if (place.source == FrameSource::isoline)
-    add_slope_variants(found, mean_of(found.series.mass_angle), place.container_radius, options, result);
+    add_slope_variants(found, statistics::mean(found.series.mass_angle), place.container_radius, options,
+                       result);
   return result;
 }
 

@@ -1,9 +1,7 @@
 #pragma once
 // Sums of coarse graining over the displacements of grains from one snapshot to the next: the motion of a
 // packing that creeps, where velocities at an instant are noise (docs/theory/coarse-graining.md).
-#include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "particles/bodies/cell_path.hpp"
 #include "particles/measurement/maps/map_sums.hpp"
@@ -24,20 +22,10 @@ class DisplacementDepositor {
   void add(const Snapshot& snapshot, MapSums& sums);
 
  private:
-  struct Ends {
-    double time = 0, angle = 0;  ///< clockwise; 0 without a drum
-    std::vector<double> x, z;    ///< in the drum's axes, from the drum's middle
-    std::vector<double> v_x;     ///< laboratory; of a periodic domain alone
-    std::vector<double> v_z;     ///< of a cell that is periodic in z alone
-    std::optional<CellInstant> cell;
-    std::vector<double> radius;
-    std::vector<std::int64_t> id;  ///< empty where the number of grains cannot change
-  };
-  static void find_ends(const Snapshot& snapshot, Ends& ends);
-  void add_pair(const Ends& from, const Ends& to, const Snapshot& snapshot, MapSums& sums) const;
+  void add_pair(const Snapshot& before, const Snapshot& now, MapSums& sums) const;
 
   CoarseGraining graining_;
-  std::optional<Ends> last_;
+  std::optional<Snapshot> last_;  ///< without its contacts
 };
 
 }  // namespace drumlin::particles

@@ -63,7 +63,8 @@ class RowMaker {
     for (std::size_t b = 0; b < tile_.size(); ++b)
       if (!tile_[b].empty()) batches[b] = tile_[b][place];
     const LeaveOneOut<MapNode> sums = leave_one_out(batches);
-    LeaveOneOut<MapValues> values{values_at(sums.whole, snapshots_.whole, inside), {}};
+    LeaveOneOut<MapValues> values = each_of(
+        [&](const MapNode& node, const auto& all) { return values_at(node, all, inside); }, sums, snapshots_);
     MapValues& whole = values.whole;
     const PlaneMatrix pressure{whole.sigma_xx, -whole.sigma_xz, -whole.sigma_zx, whole.sigma_zz};
     MapValues moved = whole;
@@ -72,10 +73,8 @@ class RowMaker {
                        std::hypot(moved.moved_v_x, moved.moved_v_z) * snapshots_.whole.time <=
                            longest_displacement * batches_.graining().width * snapshots_.whole.pairs;
     if (local) whole = moved;
-    for (std::size_t b = 0; b < sums.without.size(); ++b) {
-      values.without.push_back(values_at(sums.without[b], snapshots_.without[b], inside));
-      if (local) set_motion(sums.without[b], pressure, values.without.back());
-    }
+    for (std::size_t b = 0; b < sums.without.size() && local; ++b)
+      set_motion(sums.without[b], pressure, values.without[b]);
     return values;
   }
 

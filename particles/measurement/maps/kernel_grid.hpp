@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 
 #include "particles/measurement/frame/flow_snapshot.hpp"
+#include "particles/measurement/frame/images.hpp"
 #include "particles/measurement/maps/coarse_graining.hpp"
 #include "particles/measurement/maps/node_tiles.hpp"
 #include "particles/measurement/maps/spline_kernel.hpp"
@@ -20,20 +20,20 @@ struct KernelWeight {
 
 class KernelGrid {
  public:
-  /// Both live as long as this. Points of a cell come with all of their images that reach nodes.
-  KernelGrid(const CoarseGraining& graining, const std::optional<FlowCell>& cell)
+  /// `graining` lives as long as this. Points of a `cell`, unless it is open, come with all of their images
+  /// that reach nodes.
+  KernelGrid(const CoarseGraining& graining, const Period& cell)
       : graining_(graining), grid_(graining.grid), cell_(cell) {}
 
   /// A grain and its images, which a moving cell makes faster.
   template <class Action>
   void each_centre(const GrainSample<2>& grain, Action action) const {
-    each_image(grain.at, 0, [&](double columns, double rows, const Vector<2>& at) {
+    each_image(grain.at, 0, [&](const Vector<2>& at) {
       GrainSample<2> seen = grain;
       seen.at = at;
-      if (cell_) {
-        const Vector<2> faster{rows * cell_->v_x + columns * cell_->right_v_x, rows * cell_->v_z};
-        for (int a = 0; a < 2; ++a) seen.velocity[a] += faster[a], seen.laboratory_velocity[a] += faster[a];
-      }
+      const Point faster = cell_.image_velocity({at[0] - grain.at[0], at[1] - grain.at[1]});
+      for (Vector<2>* v : {&seen.velocity, &seen.laboratory_velocity})
+        (*v)[0] += faster.x, (*v)[1] += faster.z;
       each_node(at, [&](MapPlace node, const KernelWeight& weight) { action(node, weight, seen); });
     });
   }
@@ -46,7 +46,7 @@ class KernelGrid {
   void each_end(HalfBranch<2> branch, Action action) const {
     const double length = std::hypot(branch.toward[0], branch.toward[1]);
     branch.normal = {branch.toward[0] / length, branch.toward[1] / length};
-    each_image(branch.point(1), 0, [&](double, double, const Vector<2>& at) {
+    each_image(branch.point(1), 0, [&](const Vector<2>& at) {
       const Reach x = reach<false>(0, at[0], at[0]), z = reach<false>(1, at[1], at[1]);
       visit(x, z, [&](MapPlace node, std::size_t c, std::size_t r) {
         action(node, x.weight[c] * z.weight[r], branch);
@@ -54,10 +54,15 @@ class KernelGrid {
     });
   }
 
-  /// Calls action(columns, rows, at) for each image of a point that, or what lies at most `beside` it,
-  /// reaches nodes, so many lengths and heights of the cell away; for the point itself alone without a cell.
+  /// Calls action(image) for each image of a point that, or what lies at most `beside` it, reaches nodes.
   template <class Action>
-  void each_image(const Vector<2>& at, double beside, Action action) const;
+  void each_image(const Vector<2>& at, double beside, Action action) const {
+    const double reach = 2 * graining_.width + beside;
+    particles::each_image(cell_, at,
+                          {grid_.x_first - reach, grid_.x_of(grid_.columns - 1) + reach,
+                           grid_.z_first - reach, grid_.z_of(grid_.rows - 1) + reach},
+                          action);
+  }
   /// action(node, weight) for every node that a point reaches.
   template <class Action>
   void each_node(const Vector<2>& at, Action action) const {
@@ -122,26 +127,8 @@ class KernelGrid {
 
   const CoarseGraining& graining_;
   const MapGrid& grid_;
-  const std::optional<FlowCell>& cell_;
+  Period cell_;
 };
-
-template <class Action>
-void KernelGrid::each_image(const Vector<2>& at, double beside, Action action) const {
-  if (!cell_) {
-    action(0.0, 0.0, at);
-    return;
-  }
-  const double reach = 2 * graining_.width + beside;
-  const double lowest = grid_.z_first - reach, highest = grid_.z_of(grid_.rows - 1) + reach;
-  const double left = grid_.x_first - reach, right = grid_.x_of(grid_.columns - 1) + reach;
-  const double last_row = std::floor((highest - at[1]) / cell_->height);
-  for (double row = std::ceil((lowest - at[1]) / cell_->height); row <= last_row; ++row) {
-    const double row_x = at[0] + row * cell_->offset;
-    const double last_column = std::floor((right - row_x) / cell_->length);
-    for (double column = std::ceil((left - row_x) / cell_->length); column <= last_column; ++column)
-      action(column, row, Vector<2>{row_x + column * cell_->length, at[1] + row * cell_->height});
-  }
-}
 
 template <class Action>
 void KernelGrid::each_share(const HalfBranch<2>& branch, Action action) const {
@@ -152,7 +139,7 @@ void KernelGrid::each_share(const HalfBranch<2>& branch, Action action) const {
     const Vector<2> middle = branch.point((piece + 0.5) / pieces);
     const double off_x = gauss_offset / pieces * branch.toward[0],
                  off_z = gauss_offset / pieces * branch.toward[1];
-    each_image(middle, longest_piece / 2 * graining_.width, [&](double, double, const Vector<2>& at) {
+    each_image(middle, longest_piece / 2 * graining_.width, [&](const Vector<2>& at) {
       const double x1 = at[0] - off_x, x2 = at[0] + off_x, z1 = at[1] - off_z, z2 = at[1] + off_z;
       const Reach at_x1 = reach<false>(0, x1, x2), at_x2 = reach<false>(0, x2, x1);
       const Reach at_z1 = reach<false>(1, z1, z2), at_z2 = reach<false>(1, z2, z1);

@@ -16,10 +16,10 @@ MapBounds bounds_of(const MeasurementFrame& place, double surface_z) {
   bounds.container_radius = place.container_radius;
   bounds.axis_z = -surface_z;
   if (place.container_radius > 0) return bounds;
-  bounds.z_min = place.z_min - surface_z;
+  bounds.z_min = place.reach.z_min - surface_z;
   if (place.period > 0) return bounds;
-  bounds.x_min = place.x_min;
-  bounds.x_max = place.x_max;
+  bounds.x_min = place.reach.x_min;
+  bounds.x_max = place.reach.x_max;
   return bounds;
 }
 
@@ -53,9 +53,9 @@ MapReading begun_maps(const MeasurementFrame& place, double spacing, double widt
   const double rim = place.container_radius > 0 || place.closed ? 0 : beyond_the_floor;
   const bool periodic = place.period > 0;
   MapReading reading;
-  reading.graining = coarse_graining(place.frame, periodic ? 0 : place.x_min - rim,
-                                     periodic ? place.period : place.x_max + rim, place.z_min - rim,
-                                     place.z_max + rim, spacing, width, place.period, place.closed);
+  reading.graining = coarse_graining(
+      place.frame, periodic ? 0 : place.reach.x_min - rim, periodic ? place.period : place.reach.x_max + rim,
+      place.reach.z_min - rim, place.reach.z_max + rim, spacing, width, place.period, place.closed);
   reading.follower.emplace(reading.graining);
   reading.sums = empty_sums(reading.graining);
   reading.file = std::move(file);

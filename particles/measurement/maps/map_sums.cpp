@@ -71,14 +71,15 @@ void add_snapshot(const CoarseGraining& graining, const Snapshot& snapshot, cons
     Point velocity{snapshot.v_x[i], snapshot.v_z[i]};
     if (snapshot.cell) velocity = first_image(period, grain_of(snapshot, i)).velocity;
     GrainSample<2> grain = in_frame.grain(i);
-    grain.laboratory_velocity = {frame.along(velocity.x, velocity.z), frame.normal(velocity.x, velocity.z)};
+    grain.laboratory_velocity = frame.turned(velocity.x, velocity.z);
     grain.force = force[i];
     add_grain(grain, binning, sums.nodes);
   }
   MapSums::Snapshots& known = sums.snapshots;
   known.count += 1;
-  known.gravity_x += frame.along(snapshot.gravity_x, snapshot.gravity_z);
-  known.gravity_z += frame.normal(snapshot.gravity_x, snapshot.gravity_z);
+  const auto [gravity_x, gravity_z] = frame.turned(snapshot.gravity_x, snapshot.gravity_z);
+  known.gravity_x += gravity_x;
+  known.gravity_z += gravity_z;
   known.spin += in_frame.spin.empty() ? 0 : 1;
   known.contacts += in_frame.contacts_known ? 1 : 0;
   known.densities += in_frame.density.empty() ? 0 : 1;
