@@ -2,7 +2,10 @@
 
 import os
 import pathlib
+import signal
 import sys
+import threading
+import time
 
 import pytest
 
@@ -28,3 +31,16 @@ def box():
         "stages": [{"name": "fall", "duration_s": 0.3, "time_step_s": 1e-3}],
         "solver": {"tolerance": 1e-4},
     }
+
+
+@pytest.fixture
+def interrupt_when():
+    """Sends Ctrl-C as soon as all of these files are there, or after so many seconds."""
+
+    def interrupt(files, seconds):
+        time.sleep(seconds)
+        while not all(file.exists() for file in files):
+            time.sleep(0.01)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    return lambda *files, seconds=0: threading.Thread(target=interrupt, args=(files, seconds), daemon=True).start()

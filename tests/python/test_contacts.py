@@ -1,9 +1,6 @@
 """Contact problems on scipy matrices."""
 
 import json
-import os
-import signal
-import threading
 
 import drumlin
 import numpy as np
@@ -15,8 +12,10 @@ W = np.array([[1.0, 0, 0, 1], [0, 3, -1, 2], [0, -1, 1, 0], [1, 2, 0, 3]])
 Q = np.array([-1, 0.5, -0.5, -1])
 
 
-def test_the_solution_obeys_signorini_and_coulomb():
-    found = drumlin.solve_contacts(scipy.sparse.csr_matrix(W), Q, 0.3, tolerance=1e-12)
+@pytest.mark.parametrize("solver", ["accelerated", "nlgs", "nncg", "reference"])
+def test_the_solution_obeys_signorini_and_coulomb(solver):
+    assert solver in drumlin.contact_solvers()
+    found = drumlin.solve_contacts(scipy.sparse.csr_matrix(W), Q, [0.3, 0.3], tolerance=1e-12, solver=solver)
     assert found.converged and found.status == "converged" and found.residual <= 1e-12
     r, u = found.r, found.u
     assert (r.reshape(-1) @ W + Q == pytest.approx(u.reshape(-1), abs=1e-12))
@@ -24,14 +23,6 @@ def test_the_solution_obeys_signorini_and_coulomb():
     assert (np.abs(r[:, 1]) <= 0.3 * r[:, 0] + 1e-12).all()
     assert drumlin.contact_residual(W, Q, 0.3, r) == pytest.approx(found.residual, abs=1e-14)
     assert drumlin.contact_residual(W, Q, 0.3, 0 * r) > 0.1
-
-
-@pytest.mark.parametrize("solver", ["accelerated", "nlgs", "nncg", "reference"])
-def test_every_solver_finds_it(solver):
-    reference = drumlin.solve_contacts(W, Q, [0.3, 0.3], tolerance=1e-12)
-    found = drumlin.solve_contacts(W, Q, [0.3, 0.3], tolerance=1e-9, solver=solver)
-    assert solver in drumlin.contact_solvers() and found.converged
-    assert found.u == pytest.approx(reference.u, abs=1e-7)
 
 
 def test_a_problem_of_a_file_is_solved_as_the_command_solves_it(data):
@@ -64,10 +55,3 @@ def test_a_missed_tolerance_is_reported_not_raised(data):
     problem = drumlin.read(data / "problems/drum-300-mu-0.95-flow.h5")
     found = drumlin.solve_contacts(problem.W, problem.q, problem.mu, tolerance=1e-15, max_seconds=0.05)
     assert not found.converged and found.status == "out of time" and found.residual > 0
-
-
-def test_ctrl_c_ends_a_long_solve(data):
-    problem = drumlin.read(data / "problems/drum-300-mu-0.95-flow.h5")
-    threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
-    with pytest.raises(KeyboardInterrupt):
-        drumlin.solve_contacts(problem.W, problem.q, problem.mu, tolerance=1e-300, max_seconds=600)

@@ -1,10 +1,6 @@
 """Every kind of file into numpy."""
 
-import os
 import pickle
-import signal
-import threading
-import time
 
 import drumlin
 import matplotlib.pyplot as plt
@@ -101,15 +97,3 @@ def test_a_command_raises_what_it_fails_at(run, tmp_path):
     with pytest.raises(drumlin.InputError):
         drumlin.compare(run.path, tmp_path / "none", tmp_path / "OUT")
     assert drumlin.command("--version").split()[1] == drumlin.__version__
-
-
-def test_ctrl_c_ends_a_command_that_leaves_its_run_whole(data, tmp_path):
-    def interrupt():
-        while not (tmp_path / "RUN/log.csv").exists():
-            time.sleep(0.02)
-        os.kill(os.getpid(), signal.SIGINT)
-
-    threading.Thread(target=interrupt, daemon=True).start()
-    with pytest.raises(KeyboardInterrupt):
-        drumlin.run(data / "scenes/drum-6rpm.toml", tmp_path / "RUN")
-    assert drumlin.read(tmp_path / "RUN")["run.json"]["status"] == "interrupted"

@@ -3,8 +3,6 @@
 import os
 import signal
 import sys
-import threading
-import time
 
 import drumlin
 import numpy as np
@@ -44,17 +42,12 @@ def test_lines_of_progress_are_no_part_of_an_error(box, tmp_path):
     assert "contact solver" in str(failed.value) and "%" not in str(failed.value)
 
 
-def test_ctrl_c_ends_all_runs_of_a_sweep_and_the_same_call_goes_on(box, tmp_path):
+def test_ctrl_c_ends_all_runs_of_a_sweep_and_the_same_call_goes_on(box, tmp_path, interrupt_when):
     runs = [tmp_path / f"SWEEP/{number:03}" for number in range(3)]
     sweep = lambda: drumlin.sweep(box | {"stages": [{"name": "fall", "duration_s": 6, "time_step_s": 1e-3}]},  # noqa: E731
                                   {"effects.friction.grain_grain": [0.1, 0.2, 0.3]}, tmp_path / "SWEEP", processes=2)
 
-    def interrupt():
-        while not all((run / "log.csv").exists() for run in runs[:2]):
-            time.sleep(0.01)
-        os.kill(os.getpid(), signal.SIGINT)
-
-    threading.Thread(target=interrupt, daemon=True).start()
+    interrupt_when(*(run / "log.csv" for run in runs[:2]))
     with pytest.raises(KeyboardInterrupt):
         sweep()
     assert [drumlin.read(run)["run.json"]["status"] for run in runs[:2]] == ["interrupted"] * 2 and not runs[2].exists()
@@ -74,14 +67,10 @@ def test_ctrl_c_ends_a_calibration_between_two_draws():
     assert len(done) <= 6
 
 
-def test_an_interrupted_run_goes_on(tmp_path):
-    def interrupt():
-        while not (tmp_path / "RUN/log.csv").exists():
-            time.sleep(0.01)
-        os.kill(os.getpid(), signal.SIGINT)
-
-    threading.Thread(target=interrupt, daemon=True).start()
+def test_an_interrupted_run_is_whole_and_goes_on(tmp_path, interrupt_when):
+    interrupt_when(tmp_path / "RUN/log.csv")
     scene, changes = SOURCES / "tests/chain/tiny-drum.toml", {"stages.1.turns": 2, "stages.2.turns": 0.02, "stages.2.snapshots": 4}
     with pytest.raises(KeyboardInterrupt, match="RUN: interrupted after step"):
         drumlin.run(scene, tmp_path / "RUN", changes)
+    assert drumlin.read(tmp_path / "RUN")["run.json"]["status"] == "interrupted"
     assert drumlin.run(scene, tmp_path / "RUN", changes, resume=True)["run.json"]["status"] == "finished"

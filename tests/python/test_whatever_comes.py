@@ -3,7 +3,6 @@
 import copy
 import os
 import pickle
-import signal
 import subprocess
 import sys
 import threading
@@ -163,12 +162,12 @@ def test_short_arrays_are_refused_by_the_compiled_part_too():
         _drumlin.contact_residual(entries.row + 4, entries.col, entries.data, Q, np.array([0.3, 0.3]), Q)
 
 
-def test_ctrl_c_is_that_of_the_main_thread(data):
+def test_ctrl_c_is_that_of_the_main_thread(data, interrupt_when):
     problem, others = drumlin.read(data / LONG), []
     other = threading.Thread(target=lambda: others.append(
         drumlin.solve_contacts(problem.W, problem.q, problem.mu, tolerance=1e-300, max_seconds=2).status))
     other.start()
-    threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+    interrupt_when(seconds=0.3)
     with pytest.raises(KeyboardInterrupt):
         drumlin.solve_contacts(problem.W, problem.q, problem.mu, tolerance=1e-300, max_seconds=600)
     other.join()
