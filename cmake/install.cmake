@@ -32,6 +32,7 @@ install(DIRECTORY coupling particles continuum DESTINATION ${DRUMLIN_INSTALLED_I
 install(DIRECTORY data/scenes data/rheology data/paper data/cost data/limits DESTINATION ${DRUMLIN_INSTALLED_DATA} COMPONENT commands)
 install(FILES data/problems/drum-300-mu-0.4-flow.h5 DESTINATION ${DRUMLIN_INSTALLED_DATA}/problems COMPONENT commands)
 install(DIRECTORY apps/costs apps/figures apps/pages DESTINATION ${DRUMLIN_INSTALLED_PACKAGE} COMPONENT commands PATTERN __pycache__ EXCLUDE)
+install(FILES docs/formats/quantities.md DESTINATION ${DRUMLIN_INSTALLED_PACKAGE}/figures COMPONENT commands)
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md")  # that help cites
 

@@ -123,7 +123,7 @@ def draw_law(axes, record):
     axes.plot(curve["I"], curve["value"], color=style.PAPER,
               label=f"{chosen['form']}: rms {chosen['rms_misfit']:.4f}, 99 % band")
     axes.set_ylim(bottom=0)
-    axes.set_ylabel(r"$\mu$ along the strain rate" if record["source"] == "maps" else style.LABELS["mu"])
+    axes.set_ylabel(r"$\mu$ along the strain rate" if record["source"] == "maps" else style.axis_label("mu"))
     over_inertial_number(axes, record)
 
 
@@ -152,7 +152,7 @@ def draw_misalignment(axes, record):
 def over_inertial_number(axes, record):
     """The horizontal axis, and where the law is ill-posed."""
     axes.set_xscale("log")
-    axes.set_xlabel(r"$I = 2|D|/\sqrt{p}$" if record["source"] == "maps" else style.LABELS["I"])
+    axes.set_xlabel(r"$I = 2|D|/\sqrt{p}$" if record["source"] == "maps" else style.axis_label("I"))
     for low, high in record["ill_posed_I"]:
         axes.axvspan(low, high, color="#D55E00", alpha=0.08, linewidth=0)
     inertial = curve_of(record)["I"]

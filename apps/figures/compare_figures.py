@@ -16,10 +16,6 @@ import compare_maps
 import script
 import style
 
-LABELS = dict(style.LABELS, **{
-    "log10_shear_rate": r"$\log_{10}\dot\gamma$", "log10_I": r"$\log_{10} I$", "p": r"$p$  [$\rho_0 g d$]",
-    "axis_angle_deg": "axis angle  [deg]"})
-
 DEEPEST = -60  # d, of the slices
 
 
@@ -41,7 +37,7 @@ def mark_depths(axes, depth, zones=None):
         axes.axvspan(left, zones["all"]["from"], color="0.93", zorder=0)
         axes.axvspan(zones["all"]["to"], right, color="0.93", zorder=0)
         axes.set_xlim(left, right)
-    axes.set_xlabel(style.LABELS["z"])
+    axes.set_xlabel(style.axis_label("z"))
 
 
 def curve(axes, columns, name, side, color, label, logarithmic):
@@ -64,7 +60,7 @@ def limit_to_the_packing(axes, name, columns):
 def draw(axes, columns, name, names, logarithmic=False):
     for side, color, label in zip(("particles", "continuum"), (style.PARTICLES, style.CONTINUUM), names):
         curve(axes, columns, name, side, color, label, logarithmic)
-    axes.set_ylabel(LABELS[name])
+    axes.set_ylabel(style.axis_label(name))
     if logarithmic:
         axes.set_yscale("log")
     else:
@@ -92,8 +88,8 @@ def friction(columns, names):
     for side, color, marker, label in zip(("particles", "continuum"), (style.PARTICLES, style.CONTINUUM), "ox", names):
         axes.plot(style.positive(columns["I_" + side]), columns["mu_" + side], marker, color=color, label=label)
     axes.set_xscale("log")
-    axes.set_xlabel(style.LABELS["I"])
-    axes.set_ylabel(style.LABELS["mu"])
+    axes.set_xlabel(style.axis_label("I"))
+    axes.set_ylabel(style.axis_label("mu"))
     axes.legend()
     return figure
 

@@ -6,6 +6,7 @@ import matplotlib.colors
 import matplotlib.pyplot as plt
 import numpy as np
 
+import quantities
 import style
 from drum_maps import read_grains, read_maps
 
@@ -13,10 +14,10 @@ from drum_maps import read_grains, read_maps
 SHEETS = {
     "maps_speed": ("speed", r"speed in the frame of the drum  [$\sqrt{gd}$]", True),
     "maps_shear_rate": ("strain_rate", r"shear rate $2\sqrt{D:D/2}$  [$\sqrt{g/d}$]", True),
-    "maps_pressure": ("p", r"$p$  [$\rho_0 g d$]", False),
-    "maps_sigma_xz": ("sigma_xz", r"$\sigma_{xz}$  [$\rho_0 g d$]", False),
+    "maps_pressure": ("p", style.axis_label("p"), False),
+    "maps_sigma_xz": ("sigma_xz", style.axis_label("sigma_xz"), False),
     "maps_mu": ("mu", r"$\mu = \tau/p$", False),
-    "maps_axis_angle": ("axis_angle_deg", "axis angle  [deg]", False),
+    "maps_axis_angle": ("axis_angle_deg", style.axis_label("axis_angle_deg"), False),
 }
 WORST_INTERVALS = 3  # intervals at which the colour of the last panel ends
 
@@ -30,7 +31,7 @@ def outline(axes, radius, axis_depth):
     axes.set_ylim(axis_depth - 1.02 * radius, 0.3 * radius)
     axes.grid(False)
     axes.set_xlabel(r"$x$  [$d$], downslope")
-    axes.set_ylabel(style.LABELS["z"])
+    axes.set_ylabel(style.axis_label("z"))
 
 
 def drums(comparison, snapshot, maps):
@@ -94,7 +95,7 @@ def difference_of(field, first, second, logarithmic):
         return np.ma.log10(np.ma.masked_less_equal(second, 0)) - np.ma.log10(np.ma.masked_less_equal(first, 0))
     difference = second - first
     # Axes half a turn apart are one axis.
-    return difference - 180 * np.round(difference / 180) if field == "axis_angle_deg" else difference
+    return difference - 180 * np.round(difference / 180) if quantities.field(field).compared == "half turns" else difference
 
 
 def sheet(grids, header, field, label, logarithmic, names, reduced):

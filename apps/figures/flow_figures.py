@@ -11,6 +11,7 @@ import sys
 import matplotlib.colors
 import matplotlib.pyplot as plt
 import numpy as np
+import quantities
 import result_files
 import script
 import style
@@ -45,7 +46,7 @@ def draw_map(axes, grids, values, label, norm, cmap, header, surface):
     axes.set_aspect("equal")
     axes.set_title(label)
     axes.set_xlabel(r"$x$  [$d$]" + (", downslope" if "drum_radius" in header else ""))
-    axes.set_ylabel(style.LABELS["z"])
+    axes.set_ylabel(style.axis_label("z"))
     axes.figure.colorbar(image, ax=axes, shrink=0.8, extend="both")
 
 
@@ -103,8 +104,8 @@ def profiles(folder, flow):
         axes[0].plot([0, flow["shear_rate"] * H], [-H, 0], color=style.PAPER, linewidth=1, linestyle="--",
                      label=rf"line to $H$ = {H:.1f}")
         axes[0].legend(loc="lower right")
-    axes[0].set_xlabel(style.LABELS["v_x"])
-    axes[0].set_ylabel(style.LABELS["z"])
+    axes[0].set_xlabel(style.axis_label("v_x"))
+    axes[0].set_ylabel(style.axis_label("z"))
 
     rate = style.positive(columns["shear_rate"])
     axes[1].semilogx(rate, z, color=style.CONTINUUM)
@@ -112,15 +113,15 @@ def profiles(folder, flow):
     if known and max(known) < 10 * min(known):  # a uniform shear is no occasion to magnify its rounding
         middle = math.sqrt(max(known) * min(known))
         axes[1].set_xlim(middle / 10, middle * 10)
-    axes[1].set_xlabel(style.LABELS["shear_rate"])
+    axes[1].set_xlabel(style.axis_label("shear_rate"))
 
     for name, color in zip(("sigma_xx", "sigma_zz", "sigma_xz"), style.OTHERS):
-        axes[2].plot(columns[name], z, color=color, label=style.LABELS[name].split("  ")[0])
+        axes[2].plot(columns[name], z, color=color, label=quantities.field(name).symbol())
     axes[2].legend()
     axes[2].set_xlabel(r"stress  [$\rho_0 g d$]")
 
     for name, color in zip(("mu", "k"), style.OTHERS):
-        axes[3].plot(columns[name], z, color=color, label=style.LABELS[name])
+        axes[3].plot(columns[name], z, color=color, label=style.axis_label(name))
     axes[3].set_xlim(0, 1.5)
     axes[3].set_xticks([0, 0.5, 1, 1.5])
     axes[3].legend()
@@ -138,7 +139,7 @@ def series(folder, flow):
     """What a march in time leaves beside its last state."""
     _, _, columns = result_files.read_table(folder / "series.csv")
     shown = [("rotation_rpm", "speed [rpm]"), ("theta_deg", r"slope $\theta$ [deg]"), ("H", "$H$  [$d$]"),
-             ("shear_rate", style.LABELS["shear_rate"])]
+             ("shear_rate", style.axis_label("shear_rate"))]
     figure, axes = plt.subplots(len(shown), 1, figsize=(8, 2 + 1.8 * len(shown)), sharex=True)
     for place, (name, label) in zip(axes, shown):
         place.plot(columns["time_s"], columns[name], color=style.CONTINUUM)

@@ -33,7 +33,7 @@ def well_posedness(flow, header, grids, draw_map):
         axes.plot(margin[:, margin.shape[1] // 2], grids["z"], color=style.CONTINUUM)
         axes.axvline(0, color="grey", linewidth=0.8, linestyle=":")
         axes.set_xlabel(f"{label}, negative: ill-posed")
-        axes.set_ylabel(style.LABELS["z"])
+        axes.set_ylabel(style.axis_label("z"))
         axes.set_title(style.title_of(said, flow["reduced"]))
     return figure
 

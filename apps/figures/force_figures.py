@@ -109,7 +109,7 @@ def over_depth(axes, forces):
                                ("a_t", style.OTHERS[0], "$a_t$"), ("a_c4", style.OTHERS[1], "$a_{c4}$")):
         style.band(axes, z, layers[name], layers.get(name + "_ci99"), color, label)
     axes.set_ylim(0, 0.8)
-    axes.set_xlabel(style.LABELS["z"])
+    axes.set_xlabel(style.axis_label("z"))
     axes.set_title("Anisotropies by layer")
     axes.legend(loc="upper left", ncol=2)
 
@@ -120,7 +120,7 @@ def stress_ratio(axes, forces):
     axes.plot(z, layers["stress_ratio_harmonics"], color=style.CONTINUUM, label="carried by the harmonics")
     axes.plot(z, layers["half_sum"], color="k", linestyle="--", linewidth=1, label=r"$(a_c + a_n + a_t)/2$")
     axes.set_ylim(0, 0.6)
-    axes.set_xlabel(style.LABELS["z"])
+    axes.set_xlabel(style.axis_label("z"))
     axes.set_title("Stress ratio")
     axes.legend(loc="upper left")
 

@@ -6,6 +6,7 @@ import math
 import matplotlib.pyplot as plt
 import numpy as np
 
+import quantities
 import result_files
 import script
 import style
@@ -15,22 +16,16 @@ ROOM = 0.25  # beside the values, as a share of their range and zero: bands that
 AXES = {"radial": r"distance from the {center}, $r$  [$d$]", "height": r"height $z$  [$d$]", "width": r"$x$  [$d$]"}
 VELOCITY, STRESS, RATE = r"velocity  [$\sqrt{gd}$]", r"stress  [$\rho_0 g d$]", r"rate  [$\sqrt{g/d}$]"
 
-# By frame: panels of (label of the values, logarithmic, {column: name}); a column that a scene does not have is left out, and a panel without any.
+SHARES = (r"$\nu$, $\rho/\rho_0$", False, ["nu", "density"])
+STRESSES = (STRESS, False, ["sigma_zz", "sigma_xx", "sigma_xz"])
+RATIOS = ("ratio of stresses", False, ["mu", "k"])
+
+# By frame: panels of (label of the values, logarithmic, columns); a column that a scene does not have is left out, and a panel without any.
 PANELS = {
-    "radial": [(VELOCITY, False, {"v_t": r"$v_t$, clockwise", "v_r": "$v_r$, outwards"}),
-               (RATE, True, {"shear_rate": r"$|\dot\gamma| = r\,|d(v_t/r)/dr|$"}),
-               (RATE, False, {"omega": r"$\omega$", "half_vorticity": r"half the vorticity"}),
-               (r"$\nu$", False, {"nu": "volume fraction", "density": r"density / $\rho_0$"}),
-               (STRESS, False, {"sigma_rr": r"$\sigma_{rr}$", "sigma_tt": r"$\sigma_{tt}$", "sigma_rt": r"$\sigma_{rt}$"}),
-               ("ratio of stresses", False, {"mu": r"$\mu = \sigma_{rt}/\sigma_{rr}$", "k": r"$k = \sigma_{tt}/\sigma_{rr}$"})],
-    "height": [(VELOCITY, False, {"v_z": "$v_z$", "v_x": "$v_x$"}),
-               (r"$\nu$", False, {"nu": "volume fraction", "density": r"density / $\rho_0$"}),
-               (STRESS, False, {"sigma_zz": r"$\sigma_{zz}$", "sigma_xx": r"$\sigma_{xx}$", "sigma_xz": r"$\sigma_{xz}$"}),
-               ("ratio of stresses", False, {"k": r"$k = \sigma_{xx}/\sigma_{zz}$"})],
-    "width": [(VELOCITY, False, {"v_z": "$v_z$", "v_x": "$v_x$"}),
-              (RATE, False, {"d_v_z_dx": r"$dv_z/dx$", "omega": r"$\omega$"}),
-              (r"$\nu$", False, {"nu": "volume fraction", "density": r"density / $\rho_0$"}),
-              (STRESS, False, {"sigma_zz": r"$\sigma_{zz}$", "sigma_xx": r"$\sigma_{xx}$", "sigma_xz": r"$\sigma_{xz}$"})],
+    "radial": [(VELOCITY, False, ["v_t", "v_r"]), (r"$r\,|d(v_t/r)/dr|$  [$\sqrt{g/d}$]", True, ["shear_rate"]), (RATE, False, ["omega", "half_vorticity"]), SHARES,
+               (STRESS, False, ["sigma_rr", "sigma_tt", "sigma_rt"]), RATIOS],
+    "height": [(VELOCITY, False, ["v_z", "v_x"]), SHARES, STRESSES, RATIOS],
+    "width": [(VELOCITY, False, ["v_z", "v_x"]), (RATE, False, ["d_v_z_dx", "omega"]), SHARES, STRESSES],
 }
 
 
@@ -60,12 +55,12 @@ class Frame:
         return AXES[self.name].format(center=self.header.get("center", ""))
 
 
-def curve(axes, frame, name, color, label, logarithmic):
+def curve(axes, frame, name, color, logarithmic):
     """A column with its band; over the height values run to the right and the coordinate upwards, as a silo stands."""
     upright, values, half = frame.name == "height", frame.values[name], frame.values.get(name + "_ci99")
     if logarithmic:  # either sense of turning
         values = style.positive(np.abs(values))
-    axes.plot(*((values, frame.at) if upright else (frame.at, values)), "o-", color=color, label=label)
+    axes.plot(*((values, frame.at) if upright else (frame.at, values)), "o-", color=color, label=quantities.field(name).symbol())
     if half is not None:
         low = values - half
         if logarithmic:  # a band that reaches zero ends at the foot of the axis
@@ -77,7 +72,7 @@ def curve(axes, frame, name, color, label, logarithmic):
 def panel(axes, frame, label, logarithmic, columns):
     upright = frame.name == "height"
     which, other = ("x", "y") if upright else ("y", "x")
-    values = [value for color, (name, words) in zip(style.COLORS, columns.items()) for value in curve(axes, frame, name, color, words, logarithmic)]
+    values = [value for color, name in zip(style.COLORS, columns) for value in curve(axes, frame, name, color, logarithmic)]
     if logarithmic:
         style.log_scale(axes, which)
         if values:
@@ -97,7 +92,7 @@ def panel(axes, frame, label, logarithmic, columns):
 
 def figure_of(file):
     frame = Frame(file)
-    known = [(label, logarithmic, {name: words for name, words in columns.items() if name in frame.columns})
+    known = [(label, logarithmic, [name for name in columns if name in frame.columns])
              for label, logarithmic, columns in PANELS[frame.name]]
     known = [entry for entry in known if entry[2]]
     rows = math.ceil(len(known) / 2)

@@ -43,8 +43,8 @@ def over_height(columns, comparison, fields):
         if bulk.any():
             axes.axhspan(z[whole][0] - 0.5, z[bulk][0] - 0.5, color="0.93", zorder=0)
             axes.axhspan(z[bulk][-1] + 0.5, z[whole][-1] + 0.5, color="0.93", zorder=0)
-        axes.set_xlabel(style.LABELS[field])
-    row[0][0].set_ylabel(style.LABELS["z"])
+        axes.set_xlabel(style.axis_label(field))
+    row[0][0].set_ylabel(style.axis_label("z"))
     row[0][0].legend()
     return figure
 
@@ -60,8 +60,8 @@ def law(columns, comparison):
         axes.plot(inertial[shears & ~bulk], mu[shears & ~bulk], marker, color=COLOURS[side], fillstyle="none")
     style.log_scale(axes, "x")
     axes.set_ylim(0, 1.2 * np.nanmax([columns[f"mu_{side}"] for side in COLOURS]))
-    axes.set_xlabel(style.LABELS["I"])
-    axes.set_ylabel(style.LABELS["mu"])
+    axes.set_xlabel(style.axis_label("I"))
+    axes.set_ylabel(style.axis_label("mu"))
     axes.legend()
     return figure
 
@@ -92,7 +92,7 @@ def picture(columns, comparison, snapshot):
             axes.axhline(zones["bulk"][end], color="0.3", linestyle="--", linewidth=1)
         axes.set(xlim=(0, width), ylim=(zones["all"]["from"] - 1, zones["all"]["to"] + 2), aspect="equal", title=name, xlabel=r"$x$  [$d$]")
         axes.grid(False)
-    row[0].set_ylabel(style.LABELS["z"])
+    row[0].set_ylabel(style.axis_label("z"))
     figure.colorbar(image, ax=row, label=r"speed  [$\sqrt{gd}$]", shrink=0.85)
     return figure
 

@@ -6,6 +6,7 @@ import math
 import matplotlib.pyplot as plt
 import numpy as np
 
+import quantities
 import result_files
 import script
 import style
@@ -46,7 +47,7 @@ class Measured:
 
 def depth_panel(axes, run, name):
     """Axes over depth with the marks of the paper: dashed at the surface, dotted at the interface."""
-    style.depth_axes(axes, run.scalar("H"), style.LABELS.get(name, name), "--")
+    style.depth_axes(axes, run.scalar("H"), style.axis_label(name), "--")
     axes.set_xlim(*run.range())
 
 
@@ -121,7 +122,7 @@ def stresses(run):
     depth_panel(axes, run, "sigma_zz")
     names = {"sigma_zz": style.PARTICLES, "sigma_xx": style.OTHERS[0], "sigma_xz": style.OTHERS[1]}
     for name, color in names.items():
-        draw(axes, run, name, color, style.LABELS[name].split("  ")[0])
+        draw(axes, run, name, color, quantities.field(name).symbol())
     theta, nu = math.radians(float(run.header["theta_deg"])), run.scalar("nu_bulk")
     if math.isfinite(nu):
         z = np.array([min(run.z, default=0), 0])
@@ -145,8 +146,8 @@ def over_inertia(axes, run, name):
     axes.errorbar(inertial[inner], values[inner], error[inner], fmt="o", color=style.PARTICLES, elinewidth=1, label="measured, 99 %")
     axes.plot(inertial[outer], values[outer], "o", color=style.PARTICLES, fillstyle="none", label="at the surface or the wall")
     style.log_scale(axes, "x")
-    axes.set_xlabel(style.LABELS["I"])
-    axes.set_ylabel(style.LABELS[name])
+    axes.set_xlabel(style.axis_label("I"))
+    axes.set_ylabel(style.axis_label(name))
 
 
 def rheology(run):
@@ -191,10 +192,7 @@ def fluctuations(run):
     return figure
 
 
-GRADIENTS = [("d_sigma_zz_dz", r"$\partial\sigma_{zz}/\partial z$"), ("d_sigma_xx_dz", r"$\partial\sigma_{xx}/\partial z$"),
-             ("d_sigma_xz_dz", r"$\partial\sigma_{xz}/\partial z$"), ("d_sigma_zz_dx", r"$\partial\sigma_{zz}/\partial x$"),
-             ("d_sigma_xx_dx", r"$\partial\sigma_{xx}/\partial x$"), ("d_sigma_xz_dx", r"$\partial\sigma_{xz}/\partial x$"),
-             ("d_nu_dx", r"$\partial\nu/\partial x$"), ("d_v_x_dx", r"$\partial v_x/\partial x$"), ("d_k_dx", r"$\partial k/\partial x$")]
+GRADIENTS = ["d_sigma_zz_dz", "d_sigma_xx_dz", "d_sigma_xz_dz", "d_sigma_zz_dx", "d_sigma_xx_dx", "d_sigma_xz_dx", "d_nu_dx", "d_v_x_dx", "d_k_dx"]
 
 
 def expected_gradients(run):
@@ -216,13 +214,12 @@ def within_packing(run, name):
 
 def gradients(run):
     figure, panels = plt.subplots(3, 3, figsize=(14, 10.5))
-    for axes, (name, label) in zip(panels.flat, GRADIENTS):
+    for axes, name in zip(panels.flat, GRADIENTS):
         depth_panel(axes, run, name)
         draw(axes, run, name, label="measured, 99 %")
         expected = expected_gradients(run).get(name)
         if expected is not None and math.isfinite(expected):
             axes.axhline(expected, color=FIT, label="if nothing varied along x")
-        axes.set_ylabel(label + "  per $d$")
         axes.set_ylim(*within_packing(run, name))
     panels.flat[0].legend(loc="lower left")
     return figure
@@ -239,8 +236,8 @@ def slices(run):
         style.band(left, columns["z"], columns["v_x"], columns.get("v_x_ci99"), color, f"x = {place} d")
         right.plot(columns["z"], positive(columns["shear_rate"]), "o-", color=color)
     for axes, name in ((left, "v_x"), (right, "shear_rate")):
-        axes.set_xlabel(style.LABELS["z"] + ", each from its own surface")
-        axes.set_ylabel(style.LABELS[name])
+        axes.set_xlabel(style.axis_label("z") + ", each from its own surface")
+        axes.set_ylabel(style.axis_label(name))
         axes.axvline(0, color="0.4", linestyle="--", linewidth=1)
     style.log_scale(right, "y")
     left.legend(loc="upper left")

@@ -89,16 +89,16 @@ def draw_fields(axes, maps):
     panel(axes[0, 0], maps, speed, r"speed and streamlines  [$\sqrt{gd}$]", log_range(speed, 3))
     draw_streamlines(axes[0, 0], maps)
     draw_gravity(axes[0, 0], maps)
-    panel(axes[0, 1], maps, maps.field("nu"), r"$\nu$", Normalize(0.7, 0.86))
-    panel(axes[0, 2], maps, maps.field("coordination"), "loaded contacts per grain", Normalize(1.5, 4))
+    panel(axes[0, 1], maps, maps.field("nu"), style.axis_label("nu"), Normalize(0.7, 0.86))
+    panel(axes[0, 2], maps, maps.field("coordination"), style.axis_label("coordination"), Normalize(1.5, 4))
 
     with np.errstate(invalid="ignore"):
         unsure = maps.half_width("I") > WIDEST_I * maps.fields["I"]
     panel(axes[1, 0], maps, maps.field("I"), r"$I = 2|D|/\sqrt{p}$  (grey: below its noise)", LogNorm(1e-5, 0.2), unknown=unsure)
-    panel(axes[1, 1], maps, maps.field("p"), r"$p$  [$\rho_0 g d$]", Normalize(0, np.nanpercentile(maps.fields["p"], 99)))
+    panel(axes[1, 1], maps, maps.field("p"), style.axis_label("p"), Normalize(0, np.nanpercentile(maps.fields["p"], 99)))
     panel(axes[1, 2], maps, maps.field("mu"), r"$\mu = |\tau|/p$", Normalize(0.05, 0.45))
 
-    panel(axes[2, 0], maps, maps.field("k"), r"$k = \sigma_{xx}/\sigma_{zz}$", symmetric(0.5, 1), "RdBu_r")
+    panel(axes[2, 0], maps, maps.field("k"), style.axis_label("k"), symmetric(0.5, 1), "RdBu_r")
     with np.errstate(invalid="ignore"):
         unsure = maps.half_width("axis_angle_deg") > WIDEST_ANGLE
     panel(axes[2, 1], maps, maps.field("axis_angle_deg"), f"stress from strain axis [deg] (grey: $\\pm${WIDEST_ANGLE} or worse)", symmetric(30), "RdBu_r",
@@ -131,7 +131,7 @@ def main():
     for one in axes[-1]:
         one.set_xlabel(r"$x$  [$d$]" + (", downslope" if sloping else ""))
     for one in axes[:, 0]:
-        one.set_ylabel(style.LABELS["z"])
+        one.set_ylabel(style.axis_label("z"))
     style.save(figure, folder / "maps.png", content["reduced"])
 
 

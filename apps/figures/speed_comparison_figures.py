@@ -8,14 +8,12 @@ import math
 import pathlib
 import sys
 
+import quantities
 import script
 import style
 from style import half_width_of, value_of
 
 plt = style.plt
-
-WORDS = {"theta_deg": r"$\theta$  [deg]", "H": r"$H$  [$d$]", "lambda": r"$\lambda$  [$d$]",
-         "shear_rate": r"$\dot\gamma$ of the flowing layer  [$\sqrt{g/d}$]", "I_th": r"$I$ at the interface"}
 
 
 class Study:
@@ -54,8 +52,8 @@ def draw_sides(axes, study, name, over):
         if chosen:
             axes.plot([p[0] for p in chosen], [p[1] for p in chosen], "s", color=style.CONTINUUM, markersize=8, markerfacecolor=face,
                       markeredgewidth=1.6, label=label)
-    axes.set_ylabel(WORDS[name])
-    axes.set_xlabel("speed of rotation  [rpm]" if over == "rotation_rpm" else r"flow rate $Q$  [$d\sqrt{gd}$]")
+    axes.set_ylabel(quantities.SCALARS[name].axis_label())
+    axes.set_xlabel("speed of rotation  [rpm]" if over == "rotation_rpm" else quantities.SCALARS["Q"].axis_label())
     highest = [p[1] + (0 if math.isnan(p[2]) else p[2]) for p in ours] + [p[1] for p in flows + paper]
     if name != "theta_deg" and highest:
         axes.set_ylim(0, 1.15 * max(highest))

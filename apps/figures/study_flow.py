@@ -32,7 +32,7 @@ def snapshot(study):
     axes.set_ylim(center - 1.03 * R, 0.25 * R)
     axes.grid(False)
     axes.set_xlabel(r"$x$  [$d$]")
-    axes.set_ylabel(style.LABELS["z"])
+    axes.set_ylabel(style.axis_label("z"))
     figure.colorbar(discs, ax=axes, label=r"speed in the frame of the drum  [$\sqrt{gd}$]", shrink=0.75)
     return (figure, f"Fig. 1: a snapshot, {label_of(run)}",
             "typical snapshot of the steady surface flow; the slice in its middle is what is averaged over.",
@@ -42,7 +42,7 @@ def snapshot(study):
 def volume_fraction(study):
     run = study.main_run()
     figure, axes = plt.subplots(figsize=(7.5, 5))
-    depth_panel(axes, run, style.LABELS["nu"])
+    depth_panel(axes, run, style.axis_label("nu"))
     draw(axes, run, "nu")
     axes.axhline(0.7, color="0.6", linestyle="--", linewidth=1)
     axes.set_ylim(0, 0.95)
@@ -68,9 +68,9 @@ def velocity(study):
     run = study.main_run()
     figure, (left, right) = plt.subplots(1, 2, figsize=(13, 5))
     H, rate, decay = (run.scalar(name) for name in ("H", "shear_rate", "lambda"))
-    depth_panel(left, run, style.LABELS["v_x"], lowest_shown([run], -45))
+    depth_panel(left, run, style.axis_label("v_x"), lowest_shown([run], -45))
     draw(left, run, "v_x")
-    depth_panel(right, run, style.LABELS["shear_rate"], lowest_shown([run], -45))
+    depth_panel(right, run, style.axis_label("shear_rate"), lowest_shown([run], -45))
     draw(right, run, "shear_rate")
     if math.isfinite(H):
         left.plot([-H, 0], [0, rate * H], color=FIT, zorder=5, label=rf"$\dot\gamma$ = {rate:.3f},  $H$ = {H:.1f} $d$")
@@ -120,7 +120,7 @@ def velocity_along_x(study):
     for axes in (left, right):
         axes.axvline(0, linestyle="-.", color="0.4", linewidth=1)
         axes.set_xlabel(r"$z$ from the surface at $x$  [$d$]")
-        axes.set_ylabel(style.LABELS["v_x"])
+        axes.set_ylabel(style.axis_label("v_x"))
     deepest = min((z for columns in run.slices.values() for z in columns["z"]), default=-50)
     left.set_xlim(max(-40, deepest - 1), 4)
     right.set_xlim(max(-50, deepest - 1), 4)
@@ -138,7 +138,7 @@ def velocity_over_speed(study):
     figure, (left, middle, right) = plt.subplots(1, 3, figsize=(17, 5))
     for run in study.first_runs():
         draw(left, run, "v_x", color_of(study, run.rpm), label_of(run), marker=marker_of(run.rpm))
-    style.depth_axes(left, math.nan, style.LABELS["v_x"], "-.")
+    style.depth_axes(left, math.nan, style.axis_label("v_x"), "-.")
     left.set_xlim(lowest_shown(study.first_runs(), -45), 4)
     left.legend(loc="upper left")
 
@@ -252,7 +252,7 @@ def spin(study):
     if not run.has("omega"):
         return None
     figure, axes = plt.subplots(figsize=(8, 5.2))
-    depth_panel(axes, run, style.LABELS["omega"], lowest_shown([run], -50))
+    depth_panel(axes, run, style.axis_label("omega"), lowest_shown([run], -50))
     draw(axes, run, "omega", label="mean spin")
     axes.plot(run.z, run.columns["shear_rate"] / 2, color=FIT, label=r"$\frac{1}{2}\,dv_x/dz$")
     axes.set_ylim(-0.01, 1.35 * limits_of(run, "omega", run.z < 0)[1])

@@ -57,7 +57,7 @@ def over_inertia(axes, run, values, halves, color, label=None, size=4):
         low, high = (y - halves[rows])[order], (y + halves[rows])[order]
         axes.fill_between(x[order], low, high, color=color, alpha=0.1, linewidth=0)
     axes.set_xscale("log")
-    axes.set_xlabel(style.LABELS["I"])
+    axes.set_xlabel(style.axis_label("I"))
 
 
 def over_flow_rate(axes, study, name, label, scale=None):

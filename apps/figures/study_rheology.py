@@ -14,7 +14,7 @@ from study_runs import color_of, label_of, shown
 def inertial_number(study):
     run = study.main_run()
     figure, (left, right) = plt.subplots(1, 2, figsize=(13, 5))
-    depth_panel(left, run, style.LABELS["I"])
+    depth_panel(left, run, style.axis_label("I"))
     draw_logarithmic(left, run, "I", size=4)
     over_flow_rate(right, study, "I_th", r"$I_{\mathrm{th}}$", scale=True)
     mean = study.mean("I_th")
@@ -41,7 +41,7 @@ def ratio_panels(study, figure, run, name):
         over_inertia(logarithmic, one, one.columns[name], one.half_width(name), color_of(study, one.rpm), size=4)
     logarithmic.set_xlim(1e-5, 0.3)
     for axes in (linear, logarithmic):
-        axes.set_ylabel(style.LABELS[name])
+        axes.set_ylabel(style.axis_label(name))
     return linear, logarithmic
 
 
@@ -164,7 +164,7 @@ def volume_fraction_over_inertia(study):
         over_inertia(axes, run, run.columns["nu"], run.half_width("nu"), color_of(study, run.rpm), label_of(run))
     axes.set_xlim(1e-5, 0.3)
     axes.set_ylim(0.77, 0.845)
-    axes.set_ylabel(style.LABELS["nu"])
+    axes.set_ylabel(style.axis_label("nu"))
     axes.legend(loc="lower left")
     one = study.content["collapse"]["nu"]
     return (figure, "Volume fraction over the inertial number, all speeds", "not shown.", collapse_in_words(one) + ".")

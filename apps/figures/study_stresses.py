@@ -23,7 +23,7 @@ def stresses(study):
     cosine, sine = weight_of(study, run)
     for axes, name, slope, words in ((panels[0], "sigma_zz", cosine, r"$-z\,\nu\cos\theta$"), (panels[1], "sigma_xx", None, ""),
                                      (panels[2], "sigma_xz", sine, r"$-z\,\nu\sin\theta$")):
-        depth_panel(axes, run, style.LABELS[name])
+        depth_panel(axes, run, style.axis_label(name))
         draw(axes, run, name)
         if slope is not None:
             axes.plot([run.wall, 0], [-slope * run.wall, 0], color=FIT, label=words)
@@ -37,8 +37,8 @@ def stresses(study):
             f"{shown(study.at_main_speed('sigma_xz_over_weight_static'))} below. The loose grains above z = 0 weigh, too.")
 
 
-def gradient_panel(axes, study, run, name, label, expected=None, words=None):
-    depth_panel(axes, run, label)
+def gradient_panel(axes, run, name, expected=None, words=None):
+    depth_panel(axes, run, style.axis_label(name))
     draw(axes, run, name, rows=run.z <= 1)
     if expected is not None:
         axes.axhline(expected, color=FIT, label=words)
@@ -57,9 +57,7 @@ def stress_gradients(study):
                 "d_sigma_zz_dx": (0, "0"), "d_sigma_xz_dx": (0, "0")}
     figure, panels = plt.subplots(2, 3, figsize=(16, 8.6))
     for axes, name in zip(panels.flat, names):
-        _, _, component, direction = name.split("_")
-        label = rf"$\partial\sigma_{{{component}}}/\partial {direction[1]}$"
-        gradient_panel(axes, study, run, name, label, *expected.get(name, (None, None)))
+        gradient_panel(axes, run, name, *expected.get(name, (None, None)))
     panels[1][1].axhline(0, color="0.6", linewidth=1)
     words = {name: shown(study.at_main_speed(name), 2) for name in
              (f"dsigma_{component}_dx_{zone}" for component in ("zz", "xx", "xz") for zone in ("flowing", "static"))}
@@ -75,7 +73,7 @@ def k_gradient(study):
     if not run.has("d_k_dx"):
         return None
     figure, axes = plt.subplots(figsize=(7.5, 5))
-    gradient_panel(axes, study, run, "d_k_dx", r"$\partial k/\partial x$  [$1/d$]")
+    gradient_panel(axes, run, "d_k_dx")
     axes.axhline(0, color="0.6", linewidth=1)
     mean = study.at_main_speed("dk_dx")
     axes.axhline(mean["value"], color=FIT, label=f"mean: {shown(mean, 2)}")

@@ -13,6 +13,7 @@ import numpy as np
 
 import result_files
 import whole_file
+from quantities import axis_label
 
 # OpenBLAS takes its buffer now, while isolated.py knows that there is memory: where it gets none later it asks for ever.
 np.linalg.solve(np.eye(4), np.ones(4))
@@ -26,23 +27,6 @@ COLORS = [PARTICLES, CONTINUUM] + OTHERS
 FIT = CONTINUUM  # lines that are fitted or expected, not measured
 
 LEAST_SHOWN_NU = 0.05  # volume fraction of the loosest layer that is drawn
-
-LABELS = {
-    "v_x": r"$v_x$  [$\sqrt{gd}$]",
-    "v_z": r"$v_z$  [$\sqrt{gd}$]",
-    "shear_rate": r"$\dot\gamma = dv_x/dz$  [$\sqrt{g/d}$]",
-    "omega": r"$\omega$  [$\sqrt{g/d}$]",
-    "nu": r"$\nu$",
-    "sigma_xx": r"$\sigma_{xx}$  [$\rho_0 g d$]",
-    "sigma_zz": r"$\sigma_{zz}$  [$\rho_0 g d$]",
-    "sigma_xz": r"$\sigma_{xz}$  [$\rho_0 g d$]",
-    "I": r"$I = \dot\gamma/\sqrt{\sigma_{zz}}$",
-    "mu": r"$\mu = \sigma_{xz}/\sigma_{zz}$",
-    "k": r"$k = \sigma_{xx}/\sigma_{zz}$",
-    "dv": r"$\delta v$  [$\sqrt{gd}$]",
-    "domega": r"$\delta\omega$  [$\sqrt{g/d}$]",
-    "z": r"$z$  [$d$]",
-}
 
 
 # P(|t| <= value) = 0.99 for 1, 2, ... degrees of freedom (Abramowitz & Stegun 1964, table 26.10).
@@ -167,7 +151,7 @@ def depth_axes(axes, H, label, surface):
     for z, line in ((0, surface), (-H, ":")):
         if math.isfinite(z):
             axes.axvline(z, color="0.4", linestyle=line, linewidth=1)
-    axes.set_xlabel(LABELS["z"])
+    axes.set_xlabel(axis_label("z"))
     axes.set_ylabel(label)
 
 

@@ -2,52 +2,7 @@
 
 from markupsafe import Markup, escape
 
-NAMES = {name: Markup(text) for name, text in {
-    "theta_deg": "slope θ (deg)",
-    "Q": "flow rate Q",
-    "H": "depth of the flowing layer H (d)",
-    "lambda": "decay length λ (d)",
-    "lambda_same_window": "λ, read where the particles’ is (d)",
-    "shear_rate": "shear rate of the flowing layer",
-    "I_th": "inertial number at the interface",
-    "nu_bulk": "volume fraction of the bulk",
-    "mu_a": "a of μ = a + b ln I",
-    "mu_b": "b of μ = a + b ln I",
-    "k_flowing": "k in the flowing layer",
-    "spin_over_half_vorticity": "spin over half the vorticity",
-    "dv_over_shear": "velocity fluctuation over shear rate",
-    "domega_over_shear": "spin fluctuation over shear rate",
-    "height": "height of the layer (d)",
-    "surface_speed": "speed of the surface",
-    "bulk_shear_rate": "shear rate of the bulk",
-    "bulk_sigma_zz": "σ<sub>zz</sub> of the bulk",
-    "bulk_sigma_xz": "σ<sub>xz</sub> of the bulk",
-    "bulk_mu": "μ of the bulk",
-    "bulk_I": "I of the bulk",
-    "bulk_nu": "ν of the bulk",
-    "linear_layer_share": "0.4 · shear rate · H² / Q",
-    "v_x": "velocity v<sub>x</sub>",
-    "v_z": "velocity v<sub>z</sub>",
-    "sigma_zz": "σ<sub>zz</sub>",
-    "sigma_xz": "σ<sub>xz</sub>",
-    "sigma_xx": "σ<sub>xx</sub>",
-    "p": "pressure p",
-    "mu": "μ",
-    "k": "k = σ<sub>xx</sub>/σ<sub>zz</sub>",
-    "log10_I": "log<sub>10</sub> I (decades)",
-    "log10_shear_rate": "log<sub>10</sub> of the shear rate (decades)",
-    "axis_angle_deg": "angle between the axes of stress and strain rate (deg)",
-}.items()}
-
-SHORT = NAMES | {name: Markup(text) for name, text in {
-    "v_x": "v<sub>x</sub>",
-    "v_z": "v<sub>z</sub>",
-    "p": "p",
-    "k": "k",
-    "log10_I": "log<sub>10</sub> I",
-    "log10_shear_rate": "log<sub>10</sub> shear rate",
-    "axis_angle_deg": "axis angle (deg)",
-}.items()}
+import quantities
 
 # What a missed target tells about the physics.
 MEANING = {
@@ -66,11 +21,8 @@ MEANING = {
 
 def name(key):
     """The key itself where nothing better is known."""
-    return NAMES.get(key, key)
-
-
-def short(key):
-    return SHORT.get(key, key)
+    known = quantities.SCALARS.get(key) or quantities.field(key)
+    return key if known.label == key else Markup(known.in_html())
 
 
 def target(one):
@@ -94,4 +46,4 @@ def the_side(content, which):
 
 def has_relative_error(field):
     """Decades and degrees have an arbitrary zero: an error relative to them says nothing."""
-    return not field.startswith("log10_") and field != "axis_angle_deg"
+    return not field.startswith("log10_") and quantities.field(field).compared != "half turns"

@@ -6,12 +6,15 @@
 
 #include "coupling/core/basics/no_value.hpp"
 #include "coupling/core/results/plane_invariants.hpp"
+#include "coupling/core/results/quantities.hpp"
 
 namespace drumlin::coupling {
 
 namespace {
 
-constexpr const char* angle = "axis_angle_deg";
+constexpr std::string_view of_logarithm = "log10_";
+
+bool is_logarithm(const std::string& name) { return name.starts_with(of_logarithm); }
 
 FieldValues plain(std::vector<double> value, std::vector<double> ci99) {
   const std::size_t size = value.size();
@@ -123,23 +126,30 @@ FieldValues profile_angle(const ProfileSet& profiles) {
 }  // namespace
 
 const std::vector<std::string>& compared_fields() {
-  static const std::vector<std::string> fields{
-      "v_x", "v_z", "log10_shear_rate", "sigma_xx", "sigma_zz", "sigma_xz", "p", "log10_I", "mu", "k", angle};
+  static const std::vector<std::string> fields = [] {
+    std::vector<std::string> names;
+    for (const Quantity& row : quantities())
+      if (!row.compared.empty())
+        names.push_back(std::string(row.compared == "log10" ? of_logarithm : "").append(row.name));
+    return names;
+  }();
   return fields;
 }
 
-double period_of(const std::string& field) { return field == angle ? 180 : 0; }
+std::string name_in_maps(const std::string& field) {
+  const std::string plain = is_logarithm(field) ? field.substr(of_logarithm.size()) : field;
+  return plain == "shear_rate" ? "strain_rate" : plain;
+}
 
 FieldValues profile_field(const std::string& name, const ProfileSet& profiles) {
   if (name == "v_x" || name.starts_with("sigma_")) return needed_column(profiles, name);
   if (name == "p" && profiles.find("p") == nullptr)
     return times(0.5, sum(needed_column(profiles, "sigma_xx"), 1, needed_column(profiles, "sigma_zz")));
-  const bool shears = name == "log10_shear_rate" || name == "log10_I" || name == angle;
-  if (!shears) return column_or_nothing(profiles, name);
+  if (!is_logarithm(name) && period_of(name) == 0) return column_or_nothing(profiles, name);
   const FieldValues rate = needed_column(profiles, "shear_rate");
   const auto noise = lost_in_noise(rate, is_measured(profiles.header));
-  if (name == "log10_shear_rate") return logarithm(rate, noise);
-  if (name == "log10_I") return logarithm(column_or_nothing(profiles, "I"), noise);
+  if (is_logarithm(name))
+    return logarithm(column_or_nothing(profiles, name.substr(of_logarithm.size())), noise);
   FieldValues result = profile_angle(profiles);
   leave_out(result, noise);
   return result;
@@ -150,13 +160,10 @@ FieldValues map_field(const std::string& name, const FieldMap& map) {
     const MapField* found = map.find(field);
     return found == nullptr ? absent(map.grid.nodes()) : plain(found->value, found->ci99);
   };
-  const bool shears = name == "log10_shear_rate" || name == "log10_I" || name == angle;
-  if (!shears) return at(name);
-  const FieldValues rate = at("strain_rate");
-  const auto noise = lost_in_noise(rate, is_measured(map.header));
-  if (name == "log10_shear_rate") return logarithm(rate, noise);
-  if (name == "log10_I") return logarithm(at("I"), noise);
-  FieldValues result = at(angle);
+  FieldValues result = at(name_in_maps(name));
+  if (!is_logarithm(name) && period_of(name) == 0) return result;
+  const auto noise = lost_in_noise(at("strain_rate"), is_measured(map.header));
+  if (is_logarithm(name)) return logarithm(std::move(result), noise);
   leave_out(result, noise);
   return result;
 }

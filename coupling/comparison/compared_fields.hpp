@@ -8,11 +8,11 @@
 
 namespace drumlin::coupling {
 
-/// v_x, v_z, log10_shear_rate, sigma_xx, sigma_zz, sigma_xz, p, log10_I, mu, k, axis_angle_deg.
+/// Those that the table of quantities marks, in its order.
 const std::vector<std::string>& compared_fields();
 
-/// 180 for axis_angle_deg (axes half a turn apart are one axis), 0 for what has no period.
-double period_of(const std::string& field);
+/// Of a compared field, without its logarithm: the shear rate of maps is strain_rate.
+std::string name_in_maps(const std::string& field);
 
 /// A field at the layers of a profile or the nodes of a map.
 struct FieldValues {

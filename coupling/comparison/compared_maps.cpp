@@ -3,6 +3,7 @@
 #include "coupling/comparison/map_sampling.hpp"
 #include "coupling/comparison/parts.hpp"
 #include "coupling/core/basics/no_value.hpp"
+#include "coupling/core/results/quantities.hpp"
 
 namespace drumlin::coupling {
 
@@ -54,16 +55,16 @@ FieldMap overlaid_maps(const FieldMap& first, const FieldMap& second, const MapC
   FieldMap result{first.grid, {}, first.header, first.scales};
   const FieldMap theirs = moved(second, comparison.offset);
   const std::size_t nodes = first.grid.nodes();
-  for (const char* name : {"v_x", "v_z", "strain_rate", "sigma_xx", "sigma_zz", "sigma_xz", "p", "I", "mu",
-                           "k", "axis_angle_deg"}) {
+  for (const std::string& compared : compared_fields()) {
+    const std::string name = name_in_maps(compared);
     if (first.find(name) == nullptr || theirs.find(name) == nullptr) continue;
     FieldOverlay both = map_overlay(name, first, theirs);
     if (period_of(name) > 0) {  // as it stands, noise included
       both.particles = first.field(name).value;
       both.ci99 = first.field(name).ci99;
     }
-    result.fields.push_back({std::string(name) + "_particles", both.particles, both.ci99});
-    result.fields.push_back({std::string(name) + "_continuum", both.continuum, both.continuum_ci99});
+    result.fields.push_back({name + "_particles", both.particles, both.ci99});
+    result.fields.push_back({name + "_continuum", both.continuum, both.continuum_ci99});
   }
   MapField zone{"zone", std::vector<double>(nodes, 0), {}}, noise{"noise", std::vector<double>(nodes, 0), {}};
   for (std::size_t kind : {1u, 0u})

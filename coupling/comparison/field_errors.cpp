@@ -7,6 +7,7 @@
 #include "coupling/comparison/registration.hpp"
 #include "coupling/core/basics/no_value.hpp"
 #include "coupling/core/results/plane_invariants.hpp"
+#include "coupling/core/results/quantities.hpp"
 
 namespace drumlin::coupling {
 

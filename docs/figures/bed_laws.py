@@ -58,8 +58,8 @@ def main():
         heights, values, _ = over_depth(pathlib.Path(folder) / "maps.h5")
         for axes, value in zip(panels, values):
             axes.plot(value, heights + depth, color=colour, linestyle=line, label=style.plain(name, 60))
-    panels[0].set_xlabel(style.LABELS["sigma_xz"])
-    panels[0].set_ylabel(style.LABELS["z"])
+    panels[0].set_xlabel(style.axis_label("sigma_xz"))
+    panels[0].set_ylabel(style.axis_label("z"))
     panels[1].set_xlabel(r"$\log_{10}$ of the strain rate $2|D|$  [$\sqrt{g/d}$]")
     panels[0].set_ylim(-60, 2)
     panels[1].legend(loc="upper left")

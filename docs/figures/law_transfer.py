@@ -144,7 +144,7 @@ def drawn(rows, folders, file):
         if row is chosen[0][0]:
             right.plot(columns["v_x_particles"], z, "o", color=style.PARTICLES, label="particles")
         right.plot(columns["v_x_continuum"], z, color=colours[row["law"]])
-    right.set(xlabel=style.LABELS["v_x"], ylabel=style.LABELS["z"], title=style.plain(shown, 30))
+    right.set(xlabel=style.axis_label("v_x"), ylabel=style.axis_label("z"), title=style.plain(shown, 30))
     right.legend()
     style.save(figure, file, reduced=True)
 

@@ -5,6 +5,8 @@
 
 #include <numbers>
 
+#include "coupling/core/results/quantities.hpp"
+#include "particles/measurement/layers/profile.hpp"
 #include "particles/measurement/maps/field_values.hpp"
 #include "particles/measurement/maps/spline_kernel.hpp"
 #include "tests/measurement/collected_maps.hpp"
@@ -264,6 +266,20 @@ TEST(FieldMaps, AreasAreToldApartFromTheFirstDenseSnapshotOn) {
     EXPECT_NEAR(both.field("nu").ci99[node], 0, 1e-9);
     EXPECT_GT(both.field("density").value[node], both.field("nu").value[node]);
   }
+}
+
+TEST(Quantities, HaveWordsInTheTableWhateverIsMeasured) {
+  for (const auto& list : {layer_quantities(), ring_quantities(), height_quantities(), width_quantities()})
+    for (const LayerQuantity& column : list)
+      EXPECT_NE(quantity_words(column.name).meaning, "") << column.name;
+  for (const MapQuantity& field : known_fields({1, 1, 1, 1, 0, 0, 1, 1})) {
+    EXPECT_NE(quantity_words(field.name).meaning, "") << field.name;
+    EXPECT_EQ(field.period, std::string(field.name).ends_with("axis_angle_deg") ? 180 : 0) << field.name;
+  }
+  const QuantityWords made = quantity_words("log10_I_particles");
+  EXPECT_EQ(made.unit, "decades");
+  EXPECT_EQ(made.meaning, "decimal logarithm of the inertial number, of the particles");
+  EXPECT_EQ(quantity_words("weight_particles").meaning, "");
 }
 
 }  // namespace

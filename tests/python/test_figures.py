@@ -2,6 +2,7 @@
 
 import drumlin
 import h5py
+import matplotlib.mathtext
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -33,6 +34,30 @@ def test_the_hdf5_files_say_what_they_hold(results):
         assert kind.kind != "f" or all(words[key] for key in ("unit", "description")), name
         assert kind != np.uint8 and (kind.kind != "S" or (shape, h5py.check_string_dtype(kind).encoding) == ((), "utf-8")), name
         assert shape != (1,), f"{name}: no scalar"
+
+
+@pytest.mark.parametrize("file", ["RUN/measured/profiles.csv", "FLOW/profiles.csv", "REPORT/overlay.csv"])
+def test_the_heads_of_profiles_say_what_they_hold(results, file):
+    lines = (results.path / file).read_text(encoding="utf-8").splitlines()
+    told = [line.split()[2] for line in lines if line.startswith("# column ")]
+    assert told == [name for name in next(line for line in lines if line[0] != "#").split(",")[1:] if not name.endswith("_ci99")]
+
+
+def test_the_table_of_quantities_has_labels_that_figures_and_pages_can_show():
+    quantities = drumlin.plot.figure_module("quantities")
+    names = [name for name in quantities.FIELDS if "NAME" not in name] + ["log10_I", "sigma_rt_kinetic"]
+    rows = [*map(quantities.field, names), *quantities.SCALARS.values()]
+    mathtext = matplotlib.mathtext.MathTextParser("path")
+    for row in rows:
+        assert mathtext.parse(row.axis_label()) and not set(row.in_html()) & set("$\\{}^"), row
+    shown = {name: quantities.field(name) for name in ("sigma_xz", "log10_shear_rate", "mu", "d_k_dx", "what_is_not_known")}
+    assert {name: (one.axis_label(), one.in_html()) for name, one in shown.items()} == {
+        "sigma_xz": (r"$\sigma_{xz}$  [$\rho_0 g d$]", "σ<sub>xz</sub>"),
+        "log10_shear_rate": (r"$\log_{10}$ $\dot\gamma$  [decades]", "log<sub>10</sub> γ\u0307 (decades)"),
+        "mu": (r"$\mu = \sigma_{xz}/\sigma_{zz}$", "μ"),
+        "d_k_dx": (r"$\partial k/\partial x$  [$1/d$]", "∂ k/∂ x"),
+        "what_is_not_known": ("what_is_not_known", "what_is_not_known")}
+    assert quantities.SCALARS["lambda"].in_html() == "decay length λ (d)" and quantities.field("log10_I").compared == "log10"
 
 
 def drawn(axes):

@@ -39,7 +39,7 @@ def profile(axes, table, name, color=None, label=None):
     style = figure_module("style")
     half_width = table.get(name + "_ci99")
     style.band(axes, table["z"], table[name], half_width, color or style.PARTICLES, label)
-    axes.set(xlabel=style.LABELS["z"], ylabel=style.LABELS.get(name, name))
+    axes.set(xlabel=style.axis_label("z"), ylabel=style.axis_label(name))
 
 
 def compared(axes, report, name, logarithmic=False):
@@ -47,8 +47,8 @@ def compared(axes, report, name, logarithmic=False):
     "sigma_xz"."""
     figures, style = figure_module("compare_figures"), figure_module("style")
     comparison, overlay = report["comparison.json"], report["overlay.csv"]
-    if name + "_particles" not in overlay or name not in figures.LABELS:
-        known = [key for key in figures.LABELS if key + "_particles" in overlay]
+    if name + "_particles" not in overlay:
+        known = [key.removesuffix("_particles") for key in overlay if key.endswith("_particles")]
         raise InputError(f"{report.path}: compares no {name} (allowed: {', '.join(known)})")
     figures.draw(axes, overlay, name, figures.names_of(comparison), logarithmic)
     figures.mark_depths(axes, comparison["scalars"]["H"]["particles"]["value"], comparison["zones"])
@@ -67,7 +67,7 @@ def field(axes, maps, name, logarithmic=False, label=None, norm=None, cmap="viri
         values = np.ma.masked_less_equal(values, 0)
         norm = norm or matplotlib.colors.LogNorm(max(values.min(), 1e-6 * values.max()), values.max())
     style = figure_module("style")
-    figure_module("flow_figures").draw_map(axes, maps, values, label or style.LABELS.get(name, name), norm, cmap, maps.header, surface)
+    figure_module("flow_figures").draw_map(axes, maps, values, label or style.axis_label(name), norm, cmap, maps.header, surface)
 
 
 def law(axes, record, rest=False):

@@ -86,11 +86,11 @@ class RowMaker {
     const LeaveOneOut<MapValues> values = values_of(place, inside);
     const MapValues& whole = values.whole;
     for (std::size_t f = 0; f < fields_.size(); ++f) {
-      const auto& [name, value, needs, axis] = fields_[f];
+      const auto& [name, value, needs, period] = fields_[f];
       rows_.fields[f].value[at] = whole.*value;
       if (!values.without.empty())
-        rows_.fields[f].ci99[at] = ci99_of(values, [&, value = value, axis = axis](const MapValues& one) {
-          return axis ? nearest_turn(one.*value - whole.*value, 180) : one.*value;
+        rows_.fields[f].ci99[at] = ci99_of(values, [&, value = value, period = period](const MapValues& one) {
+          return period > 0 ? nearest_turn(one.*value - whole.*value, period) : one.*value;
         });
     }
     rows_.nodes[at] = {{whole.nu, whole.p, whole.I, whole.mu},

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "coupling/core/results/quantities.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 
 namespace drumlin::particles {
@@ -37,7 +38,7 @@ constexpr MapQuantity quantities[] = {
     {"I", &MapValues::I},
     {"mu", &MapValues::mu},
     {"k", &MapValues::k},
-    {"axis_angle_deg", &MapValues::axis_angle_deg, nullptr, true},
+    {"axis_angle_deg", &MapValues::axis_angle_deg},
     {"coordination", &MapValues::coordination},
     {"fabric_xx", &MapValues::fabric_xx},
     {"fabric_zz", &MapValues::fabric_zz},
@@ -65,7 +66,7 @@ constexpr MapQuantity quantities[] = {
     {"displacement_strain_rate", &MapValues::moved_strain_rate, &Known::pairs},
     {"displacement_half_vorticity", &MapValues::moved_half_vorticity, &Known::pairs},
     {"displacement_I", &MapValues::moved_I, &Known::pairs},
-    {"displacement_axis_angle_deg", &MapValues::moved_axis_angle_deg, &Known::pairs, true}};
+    {"displacement_axis_angle_deg", &MapValues::moved_axis_angle_deg, &Known::pairs}};
 
 /// Derivative of a quotient of sums, each part by the kernel's own derivative.
 double slope_of(double slope, double mean, double slope_of_weight, double weight) {
@@ -144,7 +145,8 @@ void forget_contacts(MapNode& m) {
 std::vector<MapQuantity> known_fields(const MapSums::Snapshots& all) {
   std::vector<MapQuantity> known;
   for (const MapQuantity& field : quantities)
-    if (!field.needs || all.*field.needs > 0) known.push_back(field);
+    if (!field.needs || all.*field.needs > 0)
+      known.push_back({field.name, field.value, field.needs, drumlin::period_of(field.name)});
   return known;
 }
 

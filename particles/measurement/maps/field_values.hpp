@@ -40,7 +40,7 @@ struct MapQuantity {
   const char* name;
   double MapValues::*value;
   double MapSums::Snapshots::*needs = nullptr;  ///< of the snapshots; absent where it is 0
-  bool axis = false;                            ///< in degrees, 180 of which are one axis
+  double period = 0;                            ///< of its values, 0: none; known_fields() sets it
 };
 /// The fields that the snapshots tell of.
 std::vector<MapQuantity> known_fields(const MapSums::Snapshots& all);
