@@ -160,15 +160,15 @@ def main():
         write_lammps(folder / "lammps", snapshots)
         lammps_run, text = imported(drumlin, folder / "lammps", description + LAMMPS)
         other = profiles_of(lammps_run)
-        still = [name for name in own if not name.startswith(("sigma_xx", "sigma_zz", "sigma_xz", "I", "mu", "k", "coordination"))]
-        require_same(own, other, still, 1e-6)
-        # Normals along the centres instead of those of a step before; contacts with the drum are missing.
-        require_same(own, other, ["sigma_zz", "sigma_xz"], 0.02, slice(4, None))
-
         text, _ = drumlin("import", folder / "lammps" / "import.toml", "-o", folder / "bare", "--set", "lammps.contacts=[]")
         require("no stress will be measured" in text, text)
         drumlin("measure", folder / "bare", "--parts", "voronoi,forces,maps")
         bare = profiles_of(folder / "bare")
+        still = [name for name in own if not all(math.isnan(value) for value in bare[name])]  # no contact enters them
+        require_same(own, other, still, 1e-6)
+        # Normals along the centres instead of those of a step before; contacts with the drum are missing.
+        require_same(own, other, ["sigma_zz", "sigma_xz"], 0.02, slice(4, None))
+
         require_same(own, bare, ["v_x", "nu", "omega"], 1e-6)
         for column in ("sigma_zz", "sigma_xz", "sigma_zz_grains", "I", "mu", "k", "coordination"):
             require(all(math.isnan(value) for value in bare[column]), f"{column}: {bare[column]}: not known, and not 0")

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "coupling/core/basics/no_value.hpp"
 #include "coupling/core/results/plane_invariants.hpp"
@@ -121,10 +122,18 @@ struct Background {
   std::optional<double> density = {};  ///< mass per area of what moves; without it that of the sums
 };
 
+/// Means that every table has of its regions, whatever their axes. A new one is a member, its name in
+/// `shared_fields` and its line in derive(); docs/formats/quantities.md has its words.
+struct SharedFields {
+  double coordination = no_value;
+};
+constexpr std::pair<const char*, double SharedFields::*> shared_fields[] = {
+    {"coordination", &SharedFields::coordination}};
+
 /// Means over a region. NaN where there is nothing to take them of, but no motion is no kinetic stress.
 template <int D>
-struct Fields {
-  double nu = 0, omega = no_value, coordination = no_value;
+struct Fields : SharedFields {
+  double nu = 0, omega = no_value;
   Tensor<D> contact{}, kinetic{};  ///< parts of the stress, compression positive
   Tensor<D> fabric{};              ///< its trace is 1
 

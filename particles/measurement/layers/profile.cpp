@@ -1,6 +1,7 @@
 #include "particles/measurement/layers/profile.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -31,7 +32,6 @@ constexpr LayerQuantity of_layers[] = {{"v_x", &Of::v_x},
                                        {"k", &Of::k},
                                        {"dv", &Of::dv},
                                        {"domega", &Of::domega, &Known::spin},
-                                       {"coordination", &Of::coordination},
                                        {"count", &Of::count},
                                        {"d_nu_dx", &Of::d_nu_dx, &Known::gradients},
                                        {"d_v_x_dx", &Of::d_v_x_dx, &Known::gradients},
@@ -65,7 +65,6 @@ constexpr LayerQuantity of_rings[] = {{"v_t", &Of::v_x},
                                       {"I", &Of::I},
                                       {"mu", &Of::mu},
                                       {"k", &Of::k},
-                                      {"coordination", &Of::coordination, &Known::contacts},
                                       {"count", &Of::count}};
 
 constexpr LayerQuantity of_height[] = {{"v_x", &Of::v_x},
@@ -80,7 +79,6 @@ constexpr LayerQuantity of_height[] = {{"v_x", &Of::v_x},
                                        {"sigma_xx", &Of::sigma_xx},
                                        {"sigma_xz", &Of::sigma_xz},
                                        {"k", &Of::k},
-                                       {"coordination", &Of::coordination},
                                        {"count", &Of::count}};
 
 constexpr LayerQuantity of_width[] = {{"v_x", &Of::v_z},
@@ -95,8 +93,18 @@ constexpr LayerQuantity of_width[] = {{"v_x", &Of::v_z},
                                       {"sigma_zz", &Of::sigma_xx},
                                       {"sigma_xx", &Of::sigma_zz},
                                       {"sigma_xz", &Of::sigma_xz, nullptr, -1},
-                                      {"coordination", &Of::coordination},
                                       {"count", &Of::count}};
+
+template <const auto& own>
+std::span<const LayerQuantity> with_shared() {
+  static constexpr auto all = [] {
+    std::array<LayerQuantity, std::size(own) + std::size(shared_fields)> list{};
+    auto next = std::copy(std::begin(own), std::end(own), list.begin());
+    for (const auto& [name, value] : shared_fields) *next++ = {name, value};
+    return list;
+  }();
+  return all;
+}
 
 /// Of a layer, summed over the snapshots.
 double area_of(const LayerGrid& grid, const LayerSums& sums, std::size_t layer) {
@@ -156,7 +164,7 @@ void set_stress(const LayerSum& sum, double area, double slope, bool with_contac
   f.sigma_xx = fields.contact[0][0] + f.sigma_xx_kinetic;
   f.sigma_zz = fields.contact[1][1] + f.sigma_zz_kinetic;
   f.sigma_xz = -fields.contact[0][1] + f.sigma_xz_kinetic;
-  f.coordination = fields.coordination;
+  static_cast<SharedFields&>(f) = fields;
   const LayerRatios ratios = layer_ratios({f.sigma_xx, f.sigma_zz, f.sigma_xz}, f.shear_rate);
   f.I = ratios.I, f.mu = ratios.mu, f.k = ratios.k;
 }
@@ -212,10 +220,10 @@ bool knows(const Profile& profile, const LayerQuantity& quantity) {
 
 }  // namespace
 
-std::span<const LayerQuantity> layer_quantities() { return of_layers; }
-std::span<const LayerQuantity> ring_quantities() { return of_rings; }
-std::span<const LayerQuantity> height_quantities() { return of_height; }
-std::span<const LayerQuantity> width_quantities() { return of_width; }
+std::span<const LayerQuantity> layer_quantities() { return with_shared<of_layers>(); }
+std::span<const LayerQuantity> ring_quantities() { return with_shared<of_rings>(); }
+std::span<const LayerQuantity> height_quantities() { return with_shared<of_height>(); }
+std::span<const LayerQuantity> width_quantities() { return with_shared<of_width>(); }
 
 double surface_height(const LayerGrid& grid, const LayerSums& sums, double surface_nu) {
   if (grid.closed) return grid.z_max();

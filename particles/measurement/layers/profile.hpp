@@ -7,18 +7,19 @@
 
 #include "coupling/core/results/profile_set.hpp"
 #include "particles/measurement/frame/intervals.hpp"
+#include "particles/measurement/frame/moments.hpp"
 #include "particles/measurement/layers/layer_sums.hpp"
 
 namespace drumlin::particles {
 
 /// What is known of one layer; NaN where it holds too little. In rings x is the tangent and z the radius.
-struct LayerValues {
+struct LayerValues : SharedFields {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
   double z = none, v_x = none, v_z = none, shear_rate = none, half_vorticity = none, omega = none;
   double nu = none, density = none;
   double sigma_xx_kinetic = 0, sigma_zz_kinetic = 0, sigma_xz_kinetic = 0, sigma_rotational = none;
   double sigma_xx = none, sigma_zz = none, sigma_xz = none;
-  double I = none, mu = none, k = none, dv = none, domega = none, coordination = none, count = none;
+  double I = none, mu = none, k = none, dv = none, domega = none, count = none;
   double d_nu_dx = none, d_v_x_dx = none, d_v_z_dx = none, d_sigma_zz_dx = none, d_sigma_xx_dx = none,
          d_sigma_xz_dx = none, d_k_dx = none;
   double d_sigma_zz_dz = none, d_sigma_xx_dz = none, d_sigma_xz_dz = none;
@@ -37,8 +38,8 @@ struct Profile {
   double surface_z = 0;  ///< of z = 0 in the frame of the grid
 };
 
-/// A column of a table: its name (coupling/core/results/quantities.hpp), where it stands, what it needs and,
-/// in other axes, the sign that it takes.
+/// A column of a table beside `shared_fields`: its name (coupling/core/results/quantities.hpp), where it
+/// stands, what it needs and, in other axes, the sign that it takes.
 struct LayerQuantity {
   const char* name;
   double LayerValues::*value;

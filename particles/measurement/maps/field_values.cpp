@@ -39,7 +39,6 @@ constexpr MapQuantity quantities[] = {
     {"mu", &MapValues::mu},
     {"k", &MapValues::k},
     {"axis_angle_deg", &MapValues::axis_angle_deg},
-    {"coordination", &MapValues::coordination},
     {"fabric_xx", &MapValues::fabric_xx},
     {"fabric_zz", &MapValues::fabric_zz},
     {"fabric_xz", &MapValues::fabric_xz},
@@ -90,7 +89,7 @@ void set_fields(const MapNode& m, double inside, MapValues& f) {
   const Fields<2> fields = derive(m, Background<2>{inside});
   const PlaneMatrix pressure = plane_matrix(fields.pressure());
   f.omega = fields.omega;
-  f.coordination = fields.coordination;
+  static_cast<SharedFields&>(f) = fields;
   f.sigma_xx_kinetic = fields.kinetic[0][0];
   f.sigma_zz_kinetic = fields.kinetic[1][1];
   f.sigma_xz_kinetic = -fields.kinetic[0][1];
@@ -147,6 +146,7 @@ std::vector<MapQuantity> known_fields(const MapSums::Snapshots& all) {
   for (const MapQuantity& field : quantities)
     if (!field.needs || all.*field.needs > 0)
       known.push_back({field.name, field.value, field.needs, drumlin::period_of(field.name)});
+  for (const auto& [name, value] : shared_fields) known.push_back({name, value});
   return known;
 }
 

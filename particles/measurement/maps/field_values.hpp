@@ -16,16 +16,16 @@ constexpr double least_map_nu = 0.05;
 /// the kernel: beyond it a displacement is no longer the motion at its middle.
 constexpr double longest_displacement = 0.5;
 
-/// All fields at one node, with the invariants of stress and velocity gradient among them; NaN where they are
-/// not known.
-struct MapValues : PlaneInvariants {
+/// All fields at one node, with those of all tables and the invariants of stress and velocity gradient among
+/// them; NaN where they are not known.
+struct MapValues : PlaneInvariants, SharedFields {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
   double nu = none, number_density = none, v_x = none, v_z = none, omega = none;
   double d_v_x_dx = none, d_v_x_dz = none, d_v_z_dx = none, d_v_z_dz = none;
   double D_xz = none, dilation = none;
   double sigma_xx = none, sigma_zz = none, sigma_xz = none, sigma_zx = none;
   double sigma_xx_kinetic = none, sigma_zz_kinetic = none, sigma_xz_kinetic = none;
-  double coordination = none, fabric_xx = none, fabric_zz = none, fabric_xz = none;
+  double fabric_xx = none, fabric_zz = none, fabric_xz = none;
   double wall_x = none, wall_z = none;
   double residual_x = none, residual_z = none, residual_x_contact = none, residual_z_contact = none;
   double inertia_x = none, inertia_z = none;
