@@ -6,6 +6,7 @@
 
 #include "apps/json/json_file.hpp"
 #include "apps/output/commands.hpp"
+#include "apps/output/figures.hpp"
 #include "apps/output/output_folder.hpp"
 #include "apps/process/asked.hpp"
 #include "apps/process/progress.hpp"
@@ -13,8 +14,7 @@
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/basics/run_status.hpp"
 #include "coupling/core/files/text_file.hpp"
-#include "particles/import/import_run.hpp"
-#include "particles/io/snapshot_file.hpp"
+#include "particles/import/description.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -22,51 +22,52 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-Json report_of(const particles::ImportDescription& description, const fs::path& file,
-               const particles::ImportReport& report) {
+std::vector<std::string> texts_of(const std::vector<fs::path>& files) { return {files.begin(), files.end()}; }
+
+/// `report`: of importing/command.py.
+Json report_of(const particles::ImportDescription& description, const fs::path& file, const Json& files,
+               const Json& report) {
+  Json from{{"description", file.filename().string()}, {"kind", report.at("kind")}, {"files", files}};
+  for (const char* key : {"unused_columns", "left_out", "with_spin", "with_contacts"})
+    from[key] = report.at(key);
   return {{"format", "drumlin-run-1"},
           {"title", description.title},
           {"reduced", description.reduced},
           {"status", name_of(RunStatus::finished)},
           {"imported", true},
-          {"imported_from",
-           {{"description", file.filename().string()},
-            {"kind", std::holds_alternative<particles::LammpsSource>(description.source) ? "lammps" : "csv"},
-            {"files", report.files},
-            {"unused_columns", report.unused_columns},
-            {"left_out", report.left_out},
-            {"with_spin", report.with_spin},
-            {"with_contacts", report.with_contacts}}},
-          {"grains", report.grains},
-          {"snapshots", report.snapshots},
-          {"simulated_seconds", report.last_time_s},
-          {"scales", to_json(report.scales)},
+          {"imported_from", from},
+          {"grains", report.at("grains")},
+          {"snapshots", report.at("snapshots")},
+          {"simulated_seconds", report.at("last_time_s")},
+          {"scales", report.at("scales")},
           {"provenance", to_json(provenance())}};
 }
 
-void print_summary(const fs::path& run, const particles::ImportDescription& description,
-                   const particles::ImportReport& report) {
-  print_out(fmt::format("{}{}: {} snapshots of {} grains, {:.6g} s to {:.6g} s\n", run.string(),
-                        description.reduced ? " (reduced)" : "", report.snapshots, report.grains,
-                        report.first_time_s, report.last_time_s));
+void print_summary(const fs::path& run, const particles::ImportDescription& description, const Json& report) {
+  const auto number = [&](const char* key) { return report.at(key).get<double>(); };
+  const auto texts = [&](const char* key) { return report.at(key).get<std::vector<std::string>>(); };
+  print_out(fmt::format("{}{}: {:.0f} snapshots of {:.0f} grains, {:.6g} s to {:.6g} s\n", run.string(),
+                        description.reduced ? " (reduced)" : "", number("snapshots"), number("grains"),
+                        number("first_time_s"), number("last_time_s")));
+  const Json& scales = report.at("scales");
   print_out(fmt::format("  d = {:.6g} mm, sqrt(d/g) = {:.6g} s; velocities are those {}\n",
-                        report.scales.length_m * 1e3, report.scales.time_s,
+                        scales.at("length_m").get<double>() * 1e3, scales.at("time_s").get<double>(),
                         description.grains.velocities == particles::ImportedVelocities::given
                             ? "at the instant of the snapshot"
                             : "since the snapshot before"));
-  if (report.with_contacts)
-    print_out(fmt::format("  {} contacts that carry a force\n", report.contacts));
+  if (report.at("with_contacts"))
+    print_out(fmt::format("  {:.0f} contacts that carry a force\n", number("contacts")));
   else
     print_out("  without contacts: no stress will be measured\n");
-  if (!report.with_spin) print_out("  without spin\n");
-  if (report.unused_period_m)
+  if (!report.at("with_spin")) print_out("  without spin\n");
+  if (!report.at("unused_period_m").is_null())
     print_out(
         fmt::format("  the dump is periodic over {:g} m along x, the description is not: grains and contacts "
                     "do not reach across its border (periodic_x)\n",
-                    *report.unused_period_m));
-  for (const std::string& snapshot : report.left_out) print_out(fmt::format("  left out: {}\n", snapshot));
-  if (!report.unused_columns.empty())
-    print_out(fmt::format("  columns that were not used: {}\n", fmt::join(report.unused_columns, ", ")));
+                    number("unused_period_m")));
+  for (const std::string& snapshot : texts("left_out")) print_out(fmt::format("  left out: {}\n", snapshot));
+  if (!report.at("unused_columns").empty())
+    print_out(fmt::format("  columns that were not used: {}\n", fmt::join(texts("unused_columns"), ", ")));
 }
 
 }  // namespace
@@ -83,10 +84,18 @@ int import_foreign(const ImportOptions& options) {
   const particles::ImportDescription description =
       particles::read_import_description(*options.description, options.overrides);
   const fs::path folder = fs::absolute(*options.description).parent_path();
-  Json inputs = Json::array({particles::import_description_text(description)});
-  for (const fs::path& file : particles::import_files(description, folder)) {
-    inputs.push_back(fs::relative(file, folder).string());
-    inputs.push_back(input_sum(file));
+  const auto [grains, contacts] = std::visit(
+      [&](const auto& source) {
+        return std::pair(particles::files_of(folder, source.grains),
+                         particles::files_of(folder, source.contacts));
+      },
+      description.source);
+  Json inputs = Json::array({particles::import_description_text(description)}), names = Json::array();
+  for (const auto& files : {grains, contacts}) {
+    for (const fs::path& file : files) {
+      inputs.push_back(names.emplace_back(fs::relative(file, folder).string()));
+      inputs.push_back(input_sum(file));
+    }
   }
   const std::string asked = asked_sum(inputs);
   if (options.existing == ExistingOutput::resume && holds_results(run, "run.json"))
@@ -95,16 +104,17 @@ int import_foreign(const ImportOptions& options) {
   make_folders(output.folder() / "snapshots");
   replace_file(output.folder() / "import.toml", particles::import_description_text(description));
 
+  const Json given{{"output", output.folder().string()},
+                   {"files", {{"grains", texts_of(grains)}, {"contacts", texts_of(contacts)}}}};
   Progress progress;
-  std::size_t done = 0;
-  const particles::ImportReport report =
-      particles::import_run(description, folder, [&](const particles::Snapshot& snapshot) {
-        particles::write_snapshot(output.folder() / "snapshots" / fmt::format("{:06}.h5", snapshot.step),
-                                  snapshot);
-        if (++done; progress.due()) progress.show(fmt::format("import  {} snapshots", done));
-      });
+  Json report;
+  work_for_script("../importing/command.py", [&](const Json& so_far) {
+    if (report = so_far; progress.due() && !report.empty())
+      progress.show(fmt::format("import  {} snapshots", report.at("snapshots").dump()));
+    return given;
+  });
   progress.finish();
-  write_json(output.folder() / "run.json", report_of(description, *options.description, report));
+  write_json(output.folder() / "run.json", report_of(description, *options.description, names, report));
   output.publish();
   print_summary(run, description, report);
   return static_cast<int>(ExitCode::done);

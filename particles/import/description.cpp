@@ -116,7 +116,7 @@ std::vector<fs::path> files_of(const fs::path& folder, const std::vector<std::st
     std::vector<std::string> found;
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(whole.parent_path(), error))
-      if (fs::is_regular_file(input_status(entry)) && matches(name, entry.path().filename().string()))
+      if (matches(name, entry.path().filename().string()) && fs::is_regular_file(input_status(entry)))
         found.push_back(entry.path().filename().string());
     if (found.empty()) throw InputError(whole.string() + ": no file of such a name");
     std::sort(found.begin(), found.end(), natural_less);

@@ -4,19 +4,16 @@
 """
 
 import csv
-import io
 import math
 import re
 import sys
-import zlib
 
-import h5py
 import numpy as np
 import scipy.interpolate
 import scipy.spatial
 
 from drumlin.errors import InputError
-from drumlin.figures import whole_file
+from drumlin.hdf5 import write_hdf5
 from drumlin.study.runs import refused
 
 G = 9.81  # m/s^2
@@ -192,18 +189,11 @@ def map_of_fields(header, f):
 
 def write_maps(path, header, x, z, fields, scales):
     """A file of maps (docs/formats/maps.md); fields: {name: array over (z, x)}."""
-    image = io.BytesIO()
-    with h5py.File(image, "w") as file:
-        texts = {"format": "drumlin-maps-1", "names": "".join(f"{name}\n" for name in fields),
-                 "header": "".join(f"{key} = {value}\n" for key, value in sorted(header.items()))}
-        for name, text in texts.items():
-            file[name] = np.frombuffer(text.encode(), "u1")
-        for name, values in ({"x": x, "z": z} | {f"fields/{name}": values for name, values in fields.items()}).items():
-            file[name] = np.asarray(values, float)
-        for name, value in scales.items():
-            file[f"scales/{name}"] = [float(value)]
-    with whole_file.aside(path) as stream:
-        stream.write(image.getvalue() + b"DRUMLCRC" + zlib.crc32(image.getvalue()).to_bytes(4, "little"))
+    texts = {"format": "drumlin-maps-1", "names": "".join(f"{name}\n" for name in fields),
+             "header": "".join(f"{key} = {value}\n" for key, value in sorted(header.items()))}
+    grid = {"x": x, "z": z} | {f"fields/{name}": values for name, values in fields.items()}
+    write_hdf5(path, texts | {name: np.asarray(values, float) for name, values in grid.items()}
+               | {f"scales/{name}": float(value) for name, value in scales.items()})
 
 
 def main(csv_file, maps_file):

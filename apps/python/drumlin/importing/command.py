@@ -1,0 +1,59 @@
+"""What `drumlin import` starts once it has read the description and claimed its output: writes the snapshots. A refusal is printed and ends with exit
+code 2. Each line of JSON that it prints, the report so far, is answered by a line (apps/commands/import.cpp):
+  output  folder that holds import.toml, the description with all defaults, and the folder snapshots
+  files   lists of files by what they hold, grains and contacts
+"""
+
+import dataclasses
+import json
+import pathlib
+import sys
+import tomllib
+
+import numpy as np
+
+from drumlin.errors import InputError
+from drumlin.hdf5 import write_hdf5
+from drumlin.importing.run import Import
+
+WORDS = {
+    "time": ("sqrt(d/g)", "since the start"), "time_step": ("sqrt(d/g)", "that led here"),
+    "wall/angle": ("rad", "of the first wall that rotates, clockwise"), "wall/spin": ("sqrt(g/d)", "of the first wall that rotates, clockwise"),
+    "container/x": ("d", "middle of the first circular container"), "container/z": ("d", "middle of the first circular container"),
+    "container/radius": ("d", "0: no circular container"), "gravity_x": ("g", "body acceleration"), "gravity_z": ("g", "body acceleration"),
+    "velocity_window": ("sqrt(d/g)", "time that the displacements cover"), "period_x": ("d", "length of a periodic domain; 0: open"),
+    "scales/length_m": ("m", "one unit of length, d"), "scales/time_s": ("s", "one unit of time, sqrt(d/g)"),
+    "scales/density_kg_m3": ("kg/m3", "one unit of density, rho0"), "grains/x": ("d", "centre, to the right"), "grains/z": ("d", "centre, upwards"),
+    "grains/v_x": ("sqrt(g d)", "velocity to the right"), "grains/v_z": ("sqrt(g d)", "velocity upwards"), "grains/radius": ("d", "radius"),
+    "grains/spin": ("sqrt(g/d)", "angular velocity, clockwise"), "grains/displacement_x": ("d", "to the right, over the velocity window"),
+    "grains/displacement_z": ("d", "upwards, over the velocity window"), "contacts/i": ("1", "grain i"),
+    "contacts/j": ("1", "grain j, or -1 - w for shape w of the walls"), "contacts/normal_x": ("1", "unit normal from j to i"),
+    "contacts/normal_z": ("1", "unit normal from j to i"), "contacts/impulse_n": ("rho0 d^2 sqrt(g d)", "on i along the normal"),
+    "contacts/impulse_t": ("rho0 d^2 sqrt(g d)", "on i along (n_z, -n_x)")}
+
+
+def tell(**words):
+    print(json.dumps(words), flush=True)
+    return json.loads(sys.stdin.readline())
+
+
+def main():
+    sys.stdout.reconfigure(encoding="utf-8", errors="surrogateescape")
+    np.seterr(all="ignore")  # what is too large is refused
+    given = tell()
+    output = pathlib.Path(given["output"])
+    try:
+        snapshots = Import(tomllib.loads((output / "import.toml").read_text(encoding="utf-8")), given["files"])
+        for s in snapshots:
+            scales = dataclasses.asdict(snapshots.report.scales)
+            write_hdf5(output / "snapshots" / f"{s['step']:06}.h5",
+                       {"format": "drumlin-snapshot-1"} | s | {f"scales/{name}": value for name, value in scales.items()}, WORDS)
+            tell(**dataclasses.asdict(snapshots.report))
+    except InputError as error:
+        print(error)
+        sys.exit(2)
+    tell(**dataclasses.asdict(snapshots.report))
+
+
+if __name__ == "__main__":
+    main()

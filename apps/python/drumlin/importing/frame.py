@@ -1,0 +1,115 @@
+"""The numbers of one instant as another program wrote them, with the place of each row."""
+
+import dataclasses
+
+import numpy as np
+
+from .text import CutOff, InputError, TextFile, refusal
+
+# Largest place, speed, force or time in units of d, sqrt(d/g) and rho0 g d: beyond, a unit is wrong or the other program has lost its grains.
+LARGEST = 1e9
+
+
+@dataclasses.dataclass
+class Scales:
+    """What one unit is in SI: d, sqrt(d/g), rho0."""
+
+    length_m: float
+    time_s: float
+    density_kg_m3: float
+
+    def unit_of(self, quantity):
+        """Of a "number", "time", "length", "velocity", "rate" or "force" (per metre of depth)."""
+        velocity = self.length_m / self.time_s
+        return {"number": 1.0, "time": self.time_s, "length": self.length_m, "velocity": velocity, "rate": 1 / self.time_s,
+                "force": self.density_kg_m3 * velocity * velocity * self.length_m}[quantity]
+
+
+SI = Scales(1.0, 1.0, 1.0)
+
+
+@dataclasses.dataclass
+class Column:
+    """Numbers of a quantity, in SI or dimensionless already."""
+
+    values: np.ndarray
+    quantity: str
+    in_si: bool = True
+
+
+@dataclasses.dataclass
+class Frame:
+    """Columns by the names of docs/formats/import.md without their units: id, x, z, v_x, v_z, radius, spin_clockwise, spin_anticlockwise, type, third of
+    grains; i, j, normal_x, normal_z, f_n, f_t, f_x, f_z of contacts. `lines`: of each row, `first_line`: where the instant begins; `words`: what the file
+    calls its columns, also those that it lacks; `period_m`: along x, where the file says that it is periodic."""
+
+    file: str
+    lines: np.ndarray
+    first_line: int
+    columns: dict
+    all_names: str
+    words: dict
+    time: float = None
+    time_in_si: bool = True
+    period_m: float = None
+
+    def word(self, name):
+        return self.words.get(name, name)
+
+    def values(self, name, scales):
+        """Dimensionless; refused where they are missing or beyond LARGEST."""
+        if name not in self.columns:
+            raise refusal(self.file, self.first_line, self.word(name), f"no such column among {self.all_names}", "docs/formats/import.md")
+        column = self.columns[name]
+        values = column.values / scales.unit_of(column.quantity) if column.in_si else column.values
+        if column.quantity != "number":
+            self.require(np.abs(values) <= LARGEST, self.word(name),
+                         lambda row: f"is {values[row]:.3g} of the unit made of d, sqrt(d/g) and rho0", f"up to {LARGEST:g} of it")
+        return values
+
+    def time_in(self, scales):
+        return self.time / scales.time_s if self.time_in_si else self.time
+
+    def repeats(self, other, rows=slice(None), of_other=slice(None)):
+        """Whether the numbers of both are the same, but for their places in files."""
+        return (self.time == other.time and self.columns.keys() == other.columns.keys()
+                and all(np.array_equal(column.values[rows], other.columns[name].values[of_other]) for name, column in self.columns.items()))
+
+    def refuse(self, key, what, allowed="", row=None):
+        """Names the line of a row, or the first of the instant."""
+        raise refusal(self.file, self.first_line if row is None or row >= len(self.lines) else self.lines[row], key, what, allowed)
+
+    def require(self, good, key, what, allowed="", rows=None):
+        """Refuses the first of `rows` (of all) that is not good; `what` says of a place in `good` what is wrong."""
+        if not np.all(good):
+            first = int(np.argmin(good))
+            self.refuse(key, what(first) if callable(what) else what, allowed, first if rows is None else rows[first])
+
+
+class TextFrames:
+    """The frames of text files, to be iterated over. `unused`: names of columns that told nothing; `cut_off`: where the last frame ends too early and was
+    left out, as a killed program leaves it; else empty. A class of a format gives frames_of(text)."""
+
+    def __init__(self, files):
+        self.files, self.unused, self.cut_off, self.count, self.first_line = files, set(), "", 0, None
+
+    def frames_of(self, text):
+        """The frames of a TextFile. `count`: how many there are so far, of all files."""
+        raise NotImplementedError
+
+    def __iter__(self):
+        for number, file in enumerate(self.files, 1):
+            text = TextFile(file)
+            frames = self.frames_of(text)
+            while True:
+                try:
+                    frame = next(frames, None)
+                except InputError as error:
+                    if not self.count or number < len(self.files) or not (isinstance(error, CutOff) or text.unended):
+                        raise
+                    self.cut_off = f"{file}:{self.first_line or text.number}"
+                    return
+                if frame is None:
+                    break
+                self.count += 1
+                yield frame
