@@ -20,7 +20,7 @@ struct ContactProblem {
 
   Delassus W;
   std::vector<double> q;
-  std::vector<double> mu;  ///< the coefficients of the law of each contact, as contact_laws.h names them
+  std::vector<double> mu;  ///< the coefficients of the law of each contact, as contact_laws-inl.h names them
   double time_step = 1;    ///< turns -u_n into a predicted penetration
   double rounding = 0;     ///< a velocity far above what rounding leaves in q, far below those of grains
 

@@ -3,7 +3,7 @@
 // not. Whoever looks into one includes problems.hpp.
 #include <variant>
 
-#include "particles/contact_law/contact_laws.h"
+#include "particles/contact_law/contact_laws-inl.h"
 
 namespace drumlin::particles {
 

@@ -5,7 +5,7 @@
 /// itself.
 inline constexpr double steep_friction = 1;
 
-/// Coefficients of a law, as contact_laws.h names them.
+/// Coefficients of a law, as contact_laws-inl.h names them.
 template <class N, class Law>
 using Coefficients = std::array<N, static_cast<std::size_t>(Law::coefficients)>;
 
@@ -50,4 +50,4 @@ CONTACT_LAW N larger_eigenvalue(N W_tt, N W_tr, N W_rr) {
 
 #include "particles/contact_law/disc_pair-inl.h"
 // After it: they use it.
-#include "particles/contact_law/contact_laws.h"
+#include "particles/contact_law/contact_laws-inl.h"

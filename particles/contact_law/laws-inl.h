@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "particles/contact_law/contact_laws.h"
+#include "particles/contact_law/contact_laws-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace drumlin::particles::HWY_NAMESPACE::contact_law {

@@ -1,12 +1,12 @@
 #pragma once
-// The laws of one contact on numbers. The law of a problem is a type (contact_laws.h), chosen once per solve:
+// The laws of one contact on numbers. The law of a problem is a type (contact_laws-inl.h), chosen once per solve:
 // a scene without friction never meets a branch about it.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
-#include "particles/contact_law/contact_laws.h"
+#include "particles/contact_law/contact_laws-inl.h"
 
 namespace drumlin::particles {
 

@@ -7,7 +7,7 @@
 //   modest(), modest_text: a strength to try, and the words for it
 // and what of this it needs
 //   check(scene, refuse): what it asks of the rest of the scene
-//   contact_law: that of contacts (contact_law/contact_laws.h); of several the last in the list
+//   contact_law: that of contacts (contact_law/contact_laws-inl.h); of several the last in the list
 //   account: its column of energy.csv
 //
 // A step goes through the laws of a scene, and calls those of these members that a law has:

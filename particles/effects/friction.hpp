@@ -1,7 +1,7 @@
 #pragma once
 // Coulomb friction: a tangential impulse |r_t| <= mu r_n that opposes sliding. One unknown more per contact.
 #include "coupling/core/documents/key_spec.hpp"
-#include "particles/contact_law/contact_laws.h"
+#include "particles/contact_law/contact_laws-inl.h"
 #include "particles/detection/candidate.hpp"
 #include "particles/effects/law_input.hpp"
 #include "particles/effects/pair_law.hpp"

@@ -3,7 +3,7 @@
 // needs spin.
 #include "coupling/core/documents/key_spec.hpp"
 #include "particles/bodies/bodies.hpp"
-#include "particles/contact_law/contact_laws.h"
+#include "particles/contact_law/contact_laws-inl.h"
 #include "particles/detection/candidate.hpp"
 #include "particles/effects/law_input.hpp"
 #include "particles/effects/pair_law.hpp"

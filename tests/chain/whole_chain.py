@@ -105,7 +105,7 @@ def check_motion(folder):
     for size in ((1200, 900, 1, False), (390, 844, 2, True)):
         with browser.Browser(program, *size) as page:
             page.open(file.as_uri())
-            page.wait_for("document.readyState === 'complete' && document.getElementById('motion-clock').textContent !== ''")
+            page.wait_for("document.readyState === 'complete' && document.getElementById('motion-clock')?.textContent")
             before = page.value(pixels)
             page.value("(() => { const s = document.getElementById('motion-scrub'); s.value = 20; s.dispatchEvent(new Event('input')); })()")
             require(all(a != b for a, b in zip(before, page.value(pixels))), "a side that does not move")
