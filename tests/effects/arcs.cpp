@@ -6,7 +6,6 @@
 #include "particles/bodies/arc.hpp"
 #include "particles/detection/contact_list.hpp"
 #include "particles/scene/region.hpp"
-#include "particles/stepping/wall_crossing.hpp"
 #include "tests/effects/drums.hpp"
 
 namespace drumlin {
@@ -55,10 +54,8 @@ TEST(Arc, ADiscThatRollsAlongItTouchesItAllTheWay) {
       const Touch touch = touch_of(shapes, disc, r);
       const Point expected = Rigid(pose).turned(n), at_wall = moved(pose, point);
       ASSERT_NEAR(touch.gap, 0, 1e-12) << angle;
-      ASSERT_NEAR(touch.normal.x, expected.x, 1e-12);
-      ASSERT_NEAR(touch.normal.z, expected.z, 1e-12);
-      ASSERT_NEAR(touch.point.x, at_wall.x, 1e-12);
-      ASSERT_NEAR(touch.point.z, at_wall.z, 1e-12);
+      expect_near(touch.normal, expected, 1e-12);
+      expect_near(touch.point, at_wall, 1e-12);
     };
     for (int k = 0; k <= 1000; ++k) {
       const double share = k / 1000.0, angle = from + share * (to - from), around = pi * share;
@@ -98,78 +95,68 @@ TEST(Arc, ReachesAsFarAsItsPoints) {
 }
 
 /// A disc of diameter 1 in a bowl of radius 10 about the origin, pushed aside by an angle.
-Scene bowl(double angle, bool rolls, double duration) {
-  Scene scene = scene_of({{9.5 * std::sin(angle), -9.5 * std::cos(angle)}});
-  scene.walls = {{"bowl", ArcShape{{0, 0}, 10, -160, -20}}};
-  scene.effects.gravity = Gravity{};
-  if (rolls) scene.effects.friction = Friction{1, 1}, scene.effects.spin = Spin{};
-  add_stage(scene, duration, 2e-3);
-  return scene;
+TestScene bowl(double angle, bool rolls, double duration) {
+  TestScene scene = scene_of({{9.5 * std::sin(angle), -9.5 * std::cos(angle)}})
+                        .between({{"bowl", ArcShape{{0, 0}, 10, -160, -20}}})
+                        .with(Gravity{})
+                        .lasting(duration, 2e-3);
+  return rolls ? scene.with(Friction{1, 1}, Spin{}) : scene;
 }
 
 TEST(Arc, IsABowlInWhichADiscSwingsAsAPendulum) {
   // Sliding: 2 pi sqrt(l) with l = 9.5; rolling: a disc's 3/2 of l; both times 1 + angle^2/16.
   for (const bool rolls : {false, true}) {
     const double angle = 0.2, period = 2 * pi * std::sqrt(9.5 * (rolls ? 1.5 : 1)) * (1 + angle * angle / 16);
-    Simulation simulation(bowl(angle, rolls, period));
-    EXPECT_EQ(simulation.walls().reference.size(), 2u);
+    TestRun run(bowl(angle, rolls, period));
+    EXPECT_EQ(run.walls().reference.size(), 2u);
     double first_zero = 0;
-    while (!simulation.finished()) {
-      (void)simulation.step();
-      const Bodies& b = simulation.state().bodies;
+    run.each_step([&] {
+      const Bodies& b = run.bodies();
       ASSERT_NEAR(std::hypot(b.x[0], b.z[0]), 9.5, 1e-5);
-      if (first_zero == 0 && b.x[0] < 0) first_zero = simulation.state().time();
-    }
+      if (first_zero == 0 && b.x[0] < 0) first_zero = run.time();
+    });
     EXPECT_NEAR(first_zero, period / 4, 2e-3 * period) << rolls;
-    EXPECT_NEAR(simulation.state().bodies.x[0], 9.5 * std::sin(angle), 0.01) << rolls;
+    EXPECT_NEAR(run.bodies().x[0], 9.5 * std::sin(angle), 0.01) << rolls;
   }
 }
 
 TEST(Arc, IsLeftAtItsEndWithoutAJolt) {
   // A cap that ends 30 degrees from its top: the disc flies on with the velocity that it has there.
   const double R = 10.5, start = 0.1, end = pi / 6;
-  Scene scene = scene_of({{R * std::sin(start), R * std::cos(start)}});
-  scene.walls = {{"cap", ArcShape{{0, 0}, 10, 60, 120}}};
-  scene.effects.gravity = Gravity{};
-  add_stage(scene, 12, 1e-3);
-  Simulation simulation(scene);
+  TestRun run(scene_of({{R * std::sin(start), R * std::cos(start)}})
+                  .between({{"cap", ArcShape{{0, 0}, 10, 60, 120}}})
+                  .with(Gravity{})
+                  .lasting(12, 1e-3));
   double energy = R * std::cos(start), turned = 0;
   Point before{};
-  while (!simulation.finished()) {
-    (void)simulation.step();
-    const Bodies& b = simulation.state().bodies;
+  run.each_step([&] {
+    const Bodies& b = run.bodies();
     const Point v{b.v_x[0], b.v_z[0]};
+    if (b.z[0] < 0) return;
     ASSERT_NEAR(b.z[0] + (v.x * v.x + v.z * v.z) / 2, energy, 5e-3);
     // No step changes the velocity by more than gravity and the curvature of the cap do.
     ASSERT_LT(std::hypot(v.x - before.x, v.z - before.z), 3e-3);
     before = v;
     if (turned == 0 && b.x[0] > R * std::sin(end)) turned = std::atan2(-v.z, v.x);
-    if (b.z[0] < 0) break;
-  }
+  });
   EXPECT_NEAR(turned, end, 2e-3);
 }
 
 TEST(Arc, ThatTurnsMovesADiscByFriction) {
   // Steady in a bowl that turns about its centre: the disc spins on its place, at the bottom, with the wall's
   // speed.
-  Scene scene = bowl(0, true, 4);
+  TestScene scene = bowl(0, true, 4).moving("bowl", turning(0.1));  // the wall's speed is 1
   scene.walls[0].shape = ArcShape{{0, 0}, 10, -269, 89};
-  const double rpm = 0.1 / time_s * 60 / (2 * pi);  // spin 0.1: the wall's speed is 1
-  scene.stages[0].motions = {{"bowl", Rotation{rpm, {0, 0}}}};
-  EndedSimulation simulation(scene);
-  const Bodies& b = simulation.state().bodies;
+  const Bodies b = bodies_at_end(scene);
   // Rolls on the wall: v + spin r is the wall's speed there, -1 (clockwise at the bottom).
   const double c = -b.z[0] / 9.5, s = b.x[0] / 9.5, along = b.v_x[0] * c + b.v_z[0] * s;
   EXPECT_NEAR(along - 0.5 * b.spin[0], -1, 1e-3);
 }
 
 TEST(ArcsAndPolylines, KeepAGasInsideAndLoseNoEnergy) {
-  Scene scene;
-  scene.grains.density_kg_m3 = 2700;
-  scene.grains.source = GeneratedGrains{40, 0.8, 1.2, RectangleRegion{{-4.5, -4.5}, {4.5, 4.5}}};
+  TestScene scene = scene_of(GeneratedGrains{40, 0.8, 1.2, RectangleRegion{{-4.5, -4.5}, {4.5, 4.5}}});
+  scene.with(Restitution{1, 1}).lasting(0.5 / time_s, 2e-4 / time_s);
   scene.grains.thermal_speed_mm_s = 500;
-  scene.effects.restitution = Restitution{1, 1};
-  add_stage(scene, 0.5 / time_s, 2e-4 / time_s);
   // Two bowls that overlap: a lens with sharp corners, in which an arc of the one goes on beyond the other.
   const std::vector<Wall> lens = {{"lens", ArcShape{{-6, 0}, 14, -70, 70}},
                                   {"lens", ArcShape{{6, 0}, 14, 110, 250}}};
@@ -181,13 +168,13 @@ TEST(ArcsAndPolylines, KeepAGasInsideAndLoseNoEnergy) {
   star.closed = true;
   for (const auto& walls : {lens, {{"star", star}}}) {
     scene.walls = walls;
-    Simulation simulation(scene);
+    TestRun run(scene);
     if (walls.size() == 1) {
-      EXPECT_EQ(simulation.walls().reference.size(), 10u);
+      EXPECT_EQ(run.walls().reference.size(), 10u);
     }
-    const double before = kinetic_energy(simulation.state().bodies), d = simulation.scales().length_m * 1e3;
-    while (!simulation.finished()) ASSERT_FALSE(simulation.step().lost);
-    const Bodies& bodies = simulation.state().bodies;
+    const double before = run.kinetic(), d = run.scales().length_m * 1e3;
+    while (!run.finished()) ASSERT_FALSE(run.step().lost);
+    const Bodies& bodies = run.bodies();
     for (std::size_t b = 0; b < bodies.count(); ++b)
       if (walls.size() == 1)
         ASSERT_LT(std::hypot(bodies.x[b], bodies.z[b]), 16);
@@ -196,34 +183,6 @@ TEST(ArcsAndPolylines, KeepAGasInsideAndLoseNoEnergy) {
           ASSERT_LT(std::hypot(bodies.x[b] - side / d, bodies.z[b]), 14 / d);
     EXPECT_NEAR(kinetic_energy(bodies), before, 0.02 * before);
   }
-}
-
-TEST(Arc, ThatWasCrossedIsUncrossed) {
-  const auto pieces = halves_of({0, 0}, 5, 0, pi);
-  const Pose lift{0, 0, 0.3}, turn{0.2, 0, 0};
-  const auto end_of = [&](Point from, Point to, const Pose& move) {
-    WallStep step;
-    for (const Arc& piece : pieces) {
-      step.before.push_back(piece);
-      step.after.push_back(moved(Rigid(move), Shape(piece)));
-      step.displacement.push_back(move);
-    }
-    Bodies bodies;
-    add_body(bodies, from.x, from.z, 0.5);
-    WallCrossings crossings;
-    crossings.begin(bodies, step.before);
-    bodies.x[0] = to.x, bodies.z[0] = to.z;
-    EXPECT_FALSE(crossings.undo(step, {}, bodies).lost);
-    return Point{bodies.x[0], bodies.z[0]};
-  };
-  EXPECT_NEAR(end_of({0, 4.8}, {0, 5.4}, {}).z, 4.5, 1e-12);    // outwards, at the joint
-  EXPECT_NEAR(end_of({0, 5.2}, {0, 4.7}, {}).z, 5.5, 1e-12);    // inwards
-  EXPECT_NEAR(end_of({0, 5.1}, {0, 5.1}, lift).z, 5.8, 1e-12);  // the arc passed the disc
-  EXPECT_EQ(end_of({0, 5.5}, {0, 5.1}, {}).z, 5.1);             // deep, but not through
-  EXPECT_EQ(end_of({4.9, -0.2}, {5.4, -0.2}, {}).x, 5.4);       // past its end
-  // Turned in by 0.2: its end passes a disc that stands just beyond it, on neither side.
-  const Point beyond{5.2 * std::cos(-0.1), 5.2 * std::sin(-0.1)};
-  EXPECT_EQ(end_of(beyond, beyond, turn).x, beyond.x);
 }
 
 TEST(Arc, CrossesRegionsThatItEnters) {

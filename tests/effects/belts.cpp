@@ -9,46 +9,37 @@ using namespace particles;
 using namespace test;
 namespace {
 
-/// A disc at rest on a belt.
-Scene disc_on_belt(double speed, double mu) {
-  Scene scene = on_floor({{0, 0.5}});
-  scene.effects.friction = Friction{mu, mu};
-  add_stage(scene, 3, 1e-2);
-  scene.stages[0].motions = {{"floor", Belt{speed / time_s}}};
-  scene.output.energy_ledger = true;
-  return scene;
-}
-
-TEST(Belt, TakesADiscAlongAfterItsSpeedOverMuG) {
-  const double mu = 0.25, mass = mass_of_disc(0.5);
-  for (const double speed : {0.5, -0.5}) {
-    Simulation simulation(disc_on_belt(speed, mu));
-    while (!simulation.finished()) {
-      (void)simulation.step();
-      const double v = std::min(mu * simulation.state().time(), std::abs(speed));  // the belt's after 2
-      ASSERT_NEAR(simulation.state().bodies.v_x[0], std::copysign(v, speed), 1e-8);
+TEST(Belt, AndAFloorThatGlidesTakeADiscAlongAfterTheirSpeedOverMuG) {
+  const double mu = 0.25;
+  for (const double speed : {0.5, -0.5})
+    for (const bool glides : {false, true}) {
+      TestScene scene = on_floor({{0, 0.5}}).with(Friction{mu, mu}).lasting(3, 1e-2);
+      scene.output.energy_ledger = true;
+      TestRun run(glides ? scene.moving("floor", Translation{{speed * mm_s, 0}})
+                         : scene.moving("floor", Belt{speed * mm_s}));
+      run.each_step([&] {
+        const double v = std::min(mu * run.time(), std::abs(speed));  // the floor's after 2
+        ASSERT_NEAR(run.bodies().v_x[0], std::copysign(v, speed), 1e-8);
+      });
+      EXPECT_NEAR(run.bodies().z[0], 0.5, 1e-8);
+      // The floor works twice what the disc keeps; friction takes the other half.
+      const EnergyLedger& ledger = *run.state().energy;
+      EXPECT_NEAR(ledger.walls, weight * speed * speed, 1e-8);
+      EXPECT_NEAR(ledger.friction, -weight * speed * speed / 2, 1e-8);
+      EXPECT_LE(std::abs(closing_error(ledger)), 1e-10 * ledger.turnover);
     }
-    EXPECT_NEAR(simulation.state().bodies.z[0], 0.5, 1e-8);
-    // The belt works twice what the disc keeps; friction takes the other half.
-    const EnergyLedger& ledger = *simulation.state().energy;
-    EXPECT_NEAR(ledger.walls, mass * speed * speed, 1e-8);
-    EXPECT_NEAR(ledger.friction, -mass * speed * speed / 2, 1e-8);
-    EXPECT_LE(std::abs(closing_error(ledger)), 1e-10 * ledger.turnover);
-  }
 }
 
 TEST(Belt, IsNotFeltWithoutFriction) {
   // Over a crest, off the end of the line, onto a round: nothing pushes along a normal.
-  Scene resting = scene_of({{-4, 0.5, 1, 1.5}});
-  resting.walls = {{"belt", PolylineShape{{-10, 0, 10}, {0, 0, -2}}}, {"belt", DiscShape{{14, -12}, 6}}};
-  resting.effects.gravity = Gravity{};
-  add_stage(resting, 14, 2e-3);
-  Scene running = resting;
-  running.stages[0].motions = {{"belt", Belt{5 / time_s}}};
-  const Bodies still = bodies_at_end(resting), carried = bodies_at_end(running);
+  TestScene resting =
+      scene_of({{-4, 0.5, 1, 1.5}})
+          .between({{"belt", PolylineShape{{-10, 0, 10}, {0, 0, -2}}}, {"belt", DiscShape{{14, -12}, 6}}})
+          .with(Gravity{})
+          .lasting(14, 2e-3);
+  const Bodies still = bodies_at_end(resting);
   EXPECT_LT(still.z[0], -9);  // past both
-  EXPECT_NEAR(still.x[0], carried.x[0], 1e-6);
-  EXPECT_NEAR(still.z[0], carried.z[0], 1e-6);
+  expect_near(still, bodies_at_end(resting.moving("belt", Belt{5 * mm_s})), 1e-6);
 }
 
 TEST(Belt, RunsAlongSegmentsAndClockwiseRoundOtherShapes) {
@@ -68,8 +59,7 @@ TEST(Belt, RunsAlongSegmentsAndClockwiseRoundOtherShapes) {
                            Contact{drum, {0, -2}, {0, 1}, {-0.1, 0}}, Contact{arc, {0, 2}, {0, 1}, {0.1, 0}},
                            Contact{arc, {0, 2}, {0, -1}, {0.1, 0}}}) {
     const Point then = moved(step, c.shape, c.touched, c.normal);
-    EXPECT_NEAR(then.x - c.touched.x, c.way.x, 1e-15);
-    EXPECT_NEAR(then.z - c.touched.z, c.way.z, 1e-15);
+    expect_near(Point{then.x - c.touched.x, then.z - c.touched.z}, c.way, 1e-15);
   }
 }
 

@@ -1,6 +1,5 @@
 // The cell without walls: periodic in x and z, sheared after Lees and Edwards, deformed at given rates,
 // pressed.
-#include <numbers>
 
 #include "particles/detection/contact_list.hpp"
 #include "particles/effects/moving_cell.hpp"
@@ -13,18 +12,18 @@ using namespace particles;
 using namespace test;
 namespace {
 
-// Of scene_of with d = 1 mm and 2700 kg/m3.
-const double time_s = std::sqrt(1e-3 / 9.81), pressure_unit = 2700 * 1e-3 * 9.81;
-const double disc_mass = std::numbers::pi / 4;  // of diameter 1
-
-/// A cell of so many unit lengths, its lower left corner at the origin.
-void set_cell(Scene& scene, double length, double height) {
+/// In a cell of so many unit lengths, its lower left corner at the origin.
+TestScene in_cell(TestScene scene, double length, double height) {
   scene.periodic_x = PeriodicX{0, length};
   scene.periodic_z = PeriodicZ{0, height};
+  return scene;
 }
 
+CellAxis pressed(double pressure) { return {pressure * pressure_unit, {}}; }
+CellAxis strained(double rate) { return {{}, rate / time_s}; }
+
 /// n x n discs, one in the middle of each square of edge `spacing`, at random velocities of mean zero.
-Scene gas(int n, double spacing, double speed) {
+TestScene gas(int n, double spacing, double speed) {
   RandomStream random(3, "gas");
   std::vector<Grain> grains;
   double mean_x = 0, mean_z = 0;
@@ -34,16 +33,7 @@ Scene gas(int n, double spacing, double speed) {
     mean_x += v_x / (n * n), mean_z += v_z / (n * n);
   }
   for (Grain& g : grains) g.v_x -= mean_x, g.v_z -= mean_z;
-  Scene scene = scene_of(grains);
-  set_cell(scene, n * spacing, n * spacing);
-  return scene;
-}
-
-Point momentum(const Bodies& bodies) {
-  Point p;
-  for (std::size_t b = 0; b < bodies.count(); ++b)
-    p.x += bodies.v_x[b] / bodies.inverse_mass[b], p.z += bodies.v_z[b] / bodies.inverse_mass[b];
-  return p;
+  return in_cell(scene_of(grains), n * spacing, n * spacing);
 }
 
 /// Stress of the contacts of a snapshot: xx, zz, and the force along x on planes across z. Compression > 0.
@@ -65,14 +55,10 @@ Stress stress_of(const Snapshot& s) {
 TEST(Cell, PairAcrossTheCornerOrTheSeamOfAPeriodCollidesAsInside) {
   const auto end = [](double shift, bool cell) {
     const double up = cell ? shift : 0;
-    Scene scene = scene_of({{5 - 0.6 + shift, 5 + up, 1, 1}, {5 + 0.6 + shift, 5.2 + up, 1, -1}});
-    set_cell(scene, 10, 10);
+    TestScene scene =
+        in_cell(scene_of({{5 - 0.6 + shift, 5 + up, 1, 1}, {5 + 0.6 + shift, 5.2 + up, 1, -1}}), 10, 10);
     if (!cell) scene.periodic_z.reset();
-    scene.effects.friction = Friction{0.3, 0.3};
-    scene.effects.spin = Spin{};
-    add_stage(scene, 1, 0.01);
-    EndedSimulation simulation(scene);
-    return simulation.state().bodies;
+    return bodies_at_end(scene.with(Friction{0.3, 0.3}, Spin{}).lasting(1, 0.01));
   };
   for (const bool cell : {false, true}) {
     const Bodies inside = end(0, cell), across = end(5, cell);
@@ -87,17 +73,13 @@ TEST(Cell, PairAcrossTheCornerOrTheSeamOfAPeriodCollidesAsInside) {
 }
 
 TEST(Cell, ElasticGasKeepsMomentumAndEnergy) {
-  Scene scene = gas(6, 1.6, 1);
-  scene.effects.restitution = Restitution{1, 1};
-  add_stage(scene, 6, 0.01);
-  Simulation simulation(scene);
-  const double energy = kinetic_energy(simulation.state().bodies);
+  TestRun run(gas(6, 1.6, 1).with(Restitution{1, 1}).lasting(6, 0.01));
+  const double energy = run.kinetic();
   int impacts = 0;
-  while (!simulation.finished()) impacts += simulation.step().impacts;
+  run.each_step([&](const StepReport& report) { impacts += report.impacts; });
   EXPECT_GT(impacts, 100);
-  EXPECT_NEAR(momentum(simulation.state().bodies).x, 0, 1e-11);
-  EXPECT_NEAR(momentum(simulation.state().bodies).z, 0, 1e-11);
-  EXPECT_NEAR(kinetic_energy(simulation.state().bodies), energy, 1e-9 * energy);
+  expect_near(momentum(run.bodies()), {}, 1e-11);
+  EXPECT_NEAR(run.kinetic(), energy, 1e-9 * energy);
 }
 
 TEST(Cell, DetectionFindsAllPairsOfAllImages) {
@@ -144,13 +126,11 @@ TEST(Cell, DetectionFindsAllPairsOfAllImages) {
 }
 
 TEST(Cell, StrainsGrainsHomogeneouslyAtGivenRates) {
-  Scene scene = scene_of({{2, 3}, {6, 8}});
-  set_cell(scene, 10, 12);
-  add_stage(scene, 1, 0.01);
-  scene.stages[0].cell = StageCell{CellAxis{{}, 0.2 / time_s}, CellAxis{{}, -0.1 / time_s}, {}, 1};
-  EndedSimulation simulation(scene);
+  TestScene scene = in_cell(scene_of({{2, 3}, {6, 8}}), 10, 12).lasting(1, 0.01);
+  scene.stages[0].cell = StageCell{strained(0.2), strained(-0.1), {}, 1};
+  EndedRun run(scene);
   const double stretch_x = std::pow(1 + 0.01 * 0.2, 100), stretch_z = std::pow(1 - 0.01 * 0.1, 100);
-  const auto& state = simulation.state();
+  const auto& state = run.state();
   EXPECT_NEAR(state.cell->length_x, 10 * stretch_x, 1e-9);
   EXPECT_NEAR(state.cell->length_z, 12 * stretch_z, 1e-9);
   EXPECT_NEAR(state.bodies.x[1] - state.bodies.x[0], 4 * stretch_x, 1e-9);  // as images of one grain
@@ -159,54 +139,48 @@ TEST(Cell, StrainsGrainsHomogeneouslyAtGivenRates) {
 
 TEST(Cell, ShearedGrainsComeBackWithTheVelocityOfTheImage) {
   // Two grains that move up and down at 1 in the middle of a cell of height 10, sheared at 0.5.
-  Scene scene = scene_of({{2, 5, 1, 0, 1}, {25, 5, 1, 0, -1}});
-  set_cell(scene, 40, 10);
-  add_stage(scene, 6, 0.01);
+  TestScene scene = in_cell(scene_of({{2, 5, 1, 0, 1}, {25, 5, 1, 0, -1}}), 40, 10).lasting(6, 0.01);
   scene.stages[0].cell = StageCell{{}, {}, 0.5 / time_s, 1};
-  EndedSimulation simulation(scene);
-  const Bodies& b = simulation.state().bodies;
+  EndedRun run(scene);
+  const Bodies& b = run.bodies();
   EXPECT_NEAR(b.z[0], 1, 1e-9);     // 5 + 6 - 10
   EXPECT_NEAR(b.v_x[0], -5, 1e-9);  // that of the image below
   EXPECT_NEAR(b.z[1], 9, 1e-9);
   EXPECT_NEAR(b.v_x[1], 5, 1e-9);
   // The image above has moved by 0.5 * 10 * 6 = 30, a period less 10.
-  EXPECT_NEAR(simulation.state().cell->offset, -10, 1e-9);
+  EXPECT_NEAR(run.state().cell->offset, -10, 1e-9);
   // The borders were crossed at t = 5, when it was at 25; from then on the grains moved at -5 and 5.
   EXPECT_NEAR(b.x[0], 2 - 25 - 5 + 40, 1e-9);
   EXPECT_NEAR(b.x[1], 25 + 25 + 5 - 40, 1e-9);
 }
 
-Scene sheared_gas() {
-  Scene scene = gas(8, 1.25, 0.5);
-  scene.effects.restitution = Restitution{0.7, 0.7};
-  scene.effects.friction = Friction{0.3, 0.3};
-  scene.effects.spin = Spin{};
+TestScene sheared_gas() {
+  TestScene scene =
+      gas(8, 1.25, 0.5).with(Restitution{0.7, 0.7}, Friction{0.3, 0.3}, Spin{}).lasting(10, 0.01);
   scene.output.energy_ledger = true;
-  add_stage(scene, 10, 0.01);
   scene.stages[0].cell = StageCell{{}, {}, 1 / time_s, 1};
   return scene;
 }
 
 TEST(Cell, ShearedGasKeepsItsInvariantAndItsProfile) {
-  Simulation simulation(sheared_gas());
-  (void)simulation.step();
+  TestRun run(sheared_gas());
+  (void)run.step();
   // Momentum of unwrapped grains is conserved: sum m (v_x - shear z) of wrapped ones.
   const auto invariant = [&] {
-    const Bodies& b = simulation.state().bodies;
+    const Bodies& b = run.bodies();
     double sum = 0;
-    for (std::size_t k = 0; k < b.count(); ++k) sum += disc_mass * (b.v_x[k] - b.z[k]);
+    for (std::size_t k = 0; k < b.count(); ++k) sum += weight * (b.v_x[k] - b.z[k]);
     return sum;
   };
   const double before = invariant();
   double zz = 0, zv = 0;
-  while (!simulation.finished()) {
-    (void)simulation.step();
-    const Bodies& b = simulation.state().bodies;
+  run.each_step([&] {
+    const Bodies& b = run.bodies();
     for (std::size_t k = 0; k < b.count(); ++k)
       zz += (b.z[k] - 5) * (b.z[k] - 5), zv += (b.z[k] - 5) * b.v_x[k];
-  }
+  });
   EXPECT_NEAR(invariant(), before, 1e-9);
-  EXPECT_NEAR(momentum(simulation.state().bodies).z, 0, 1e-10);
+  EXPECT_NEAR(momentum(run.bodies()).z, 0, 1e-10);
   EXPECT_NEAR(zv / zz, 1, 0.05);  // the slope is the shear rate
 }
 
@@ -217,7 +191,7 @@ TEST(Cell, ResultsDoNotDependOnAGalileanShift) {
   const Simulation at_rest(scene);
   SimulationState state = at_rest.state();
   for (std::size_t b = 0; b < state.bodies.count(); ++b) state.bodies.v_x[b] += 2, state.bodies.v_z[b] += 3;
-  EndedSimulation one(scene), two(scene, state);
+  EndedRun one(scene), two(scene, state);
   const Bodies &a = one.state().bodies, &b = two.state().bodies;
   const Period period = period_of(*one.state().cell);
   for (std::size_t k = 1; k < a.count(); ++k) {
@@ -229,49 +203,40 @@ TEST(Cell, ResultsDoNotDependOnAGalileanShift) {
 }
 
 /// A cell of 4 x 4 touching discs under pressures.
-Scene lattice(double p_x, double p_z) {
+TestScene lattice(double p_x, double p_z) {
   std::vector<Grain> grains;
   for (int k = 0; k < 16; ++k) grains.push_back({k % 4 + 0.5, k / 4 + 0.5});
-  Scene scene = scene_of(grains);
-  set_cell(scene, 4, 4);
-  add_stage(scene, 0.5, 0.01);
+  TestScene scene = in_cell(scene_of(grains), 4, 4).lasting(0.5, 0.01);
   scene.stages[0].snapshots = 1;
-  scene.stages[0].cell =
-      StageCell{CellAxis{p_x * pressure_unit, {}}, CellAxis{p_z * pressure_unit, {}}, {}, 1};
+  scene.stages[0].cell = StageCell{pressed(p_x), pressed(p_z), {}, 1};
   return scene;
 }
 
 TEST(Cell, LatticeCarriesThePressuresOfItsAxes) {
-  EndedSimulation simulation(lattice(2, 5));
-  const Stress stress = stress_of(simulation.take_snapshot());
+  EndedRun run(lattice(2, 5));
+  const Stress stress = stress_of(run.take_snapshot());
   EXPECT_NEAR(stress.xx, 2, 1e-6);
   EXPECT_NEAR(stress.zz, 5, 1e-6);
-  EXPECT_NEAR(simulation.state().cell->length_x, 4, 1e-6);
-  EXPECT_NEAR(simulation.state().cell->length_z, 4, 1e-6);
+  EXPECT_NEAR(run.state().cell->length_x, 4, 1e-6);
+  EXPECT_NEAR(run.state().cell->length_z, 4, 1e-6);
 }
 
 TEST(Cell, AxisUnderPressureFallsWithItsInertia) {
   // No contact, no motion: Q d(rate)/dt = -V p with Q = m L^2 / 12, here for three steps.
-  Scene scene = scene_of({{2, 2}, {7, 6}});
-  set_cell(scene, 10, 8);
-  add_stage(scene, 0.03, 0.01);
-  scene.stages[0].cell = StageCell{{}, CellAxis{0.1 * pressure_unit, {}}, {}, 2};
-  Simulation simulation(scene);
-  (void)simulation.step();
-  const double inertia = 2 * 2 * disc_mass * 64 / 12;
-  EXPECT_NEAR(simulation.state().cell->rate_z, -0.01 * 80 * 0.1 / inertia, 1e-12);
-  EXPECT_EQ(simulation.state().cell->rate_x, 0);
+  TestScene scene = in_cell(scene_of({{2, 2}, {7, 6}}), 10, 8).lasting(0.03, 0.01);
+  scene.stages[0].cell = StageCell{{}, pressed(0.1), {}, 2};
+  TestRun run(scene);
+  (void)run.step();
+  const double inertia = 2 * 2 * weight * 64 / 12;
+  EXPECT_NEAR(run.state().cell->rate_z, -0.01 * 80 * 0.1 / inertia, 1e-12);
+  EXPECT_EQ(run.state().cell->rate_x, 0);
 }
 
 /// 30 discs in a cell that presses them on both axes until they are at rest.
-Scene pressed_to_rest() {
-  Scene scene;
-  scene.grains.density_kg_m3 = 2700;
-  scene.grains.source = GeneratedGrains{30, 0.8, 1.2, RectangleRegion{{0, 0}, {7, 7}}};
-  set_cell(scene, 7, 7);
-  add_stage(scene, 100, 0.02);
-  const CellAxis axis{pressure_unit, {}};
-  scene.stages[0].cell = StageCell{axis, axis, {}, 1};
+TestScene pressed_to_rest() {
+  TestScene scene = in_cell(scene_of(GeneratedGrains{30, 0.8, 1.2, RectangleRegion{{0, 0}, {7, 7}}}), 7, 7)
+                        .lasting(100, 0.02);
+  scene.stages[0].cell = StageCell{pressed(1), pressed(1), {}, 1};
   scene.stages[0].until = Until{};
   scene.stages[0].until->at_rest = UntilRest{1e-8, 0.5 * time_s};
   return scene;
@@ -284,9 +249,9 @@ TEST(Cell, PressedGrainsKeepTheirMomentumAgainstTheCellAndComeToRest) {
     const Scene scene = pressed_to_rest();
     SimulationState state = Simulation(scene).state();
     for (double& v : state.bodies.v_x) v += drift;
-    Simulation simulation(scene, std::move(state));
+    TestRun run(scene, std::move(state));
     const auto velocity_against_cell = [&] {
-      const auto& [bodies, cell] = std::tie(simulation.state().bodies, *simulation.state().cell);
+      const auto& [bodies, cell] = std::tie(run.bodies(), *run.state().cell);
       Point sum = momentum(bodies);
       double mass = 0;
       for (std::size_t b = 0; b < bodies.count(); ++b) {
@@ -297,43 +262,30 @@ TEST(Cell, PressedGrainsKeepTheirMomentumAgainstTheCellAndComeToRest) {
       }
       return Point{sum.x / mass, sum.z / mass};
     };
-    while (!simulation.finished()) {
-      (void)simulation.step();
-      if (drift == 0) {
-        ASSERT_NEAR(velocity_against_cell().x, 0, 1e-12);
-        ASSERT_NEAR(velocity_against_cell().z, 0, 1e-12);
-      }
-    }
-    EXPECT_EQ(simulation.state().ends.at(0).by, EndedBy::rest);
+    run.each_step([&] {
+      if (drift == 0) expect_near(velocity_against_cell(), {}, 1e-12);
+    });
+    EXPECT_EQ(run.state().ends.at(0).by, EndedBy::rest);
     EXPECT_NEAR(velocity_against_cell().z, 0, 1e-12);
-    if (drift == 0) {
-      EXPECT_NEAR(momentum(simulation.state().bodies).x, 0, 1e-3);
-      EXPECT_NEAR(momentum(simulation.state().bodies).z, 0, 1e-3);
-    }
+    if (drift == 0) expect_near(momentum(run.bodies()), {}, 1e-3);
   }
 }
 
 /// Steps of 100 discs that miss a tolerance while a cell presses them, or while they fall on a floor.
-int missed_steps(const std::string& solver, double mu, bool pressed) {
-  Scene scene;
-  scene.grains.density_kg_m3 = 2700;
-  scene.grains.source = GeneratedGrains{100, 0.8, 1.2, RectangleRegion{{0, 0.1}, {13, 13}}};
-  scene.periodic_x = PeriodicX{0, 13};
-  scene.effects.friction = Friction{mu, mu};
-  scene.effects.spin = Spin{};
-  add_stage(scene, 12, 0.05);
-  if (pressed) {
-    set_cell(scene, 13, 13.2);
-    const CellAxis axis{1 * pressure_unit, {}};
-    scene.stages[0].cell = StageCell{axis, axis, {}, 1};
+int missed_steps(const std::string& solver, double mu, bool by_cell) {
+  TestScene scene = scene_of(GeneratedGrains{100, 0.8, 1.2, RectangleRegion{{0, 0.1}, {13, 13}}});
+  scene.with(Friction{mu, mu}, Spin{}).lasting(12, 0.05);
+  if (by_cell) {
+    scene = in_cell(scene, 13, 13.2);
+    scene.stages[0].cell = StageCell{pressed(1), pressed(1), {}, 1};
   } else {
-    scene.walls = {{"floor", SegmentShape{{0, 0}, {13, 0}}}};
-    scene.effects.gravity = Gravity{};
+    scene.between({segment("floor", {0, 0}, {13, 0})}).with(Gravity{});
+    scene.periodic_x = PeriodicX{0, 13};
   }
   scene.solver.name = solver;
-  Simulation simulation(scene);
+  TestRun run(scene);
   int missed = 0;
-  while (!simulation.finished()) missed += !is_converged(simulation.step());
+  run.each_step([&](const StepReport& report) { missed += !is_converged(report); });
   return missed;
 }
 
@@ -349,9 +301,9 @@ TEST(SteepFriction, MissesAtMostAStepInAHundred) {
 
 TEST(Cell, BooksItsWork) {
   Scene scene = sheared_gas();
-  scene.stages[0].cell->zz = CellAxis{pressure_unit, {}};
-  EndedSimulation simulation(scene);
-  const EnergyLedger& ledger = *simulation.state().energy;
+  scene.stages[0].cell->zz = pressed(1);
+  EndedRun run(scene);
+  const EnergyLedger& ledger = *run.state().energy;
   ASSERT_TRUE(ledger.cell);
   EXPECT_GT(*ledger.cell, 0);
   EXPECT_LT(ledger.friction, 0);
@@ -360,8 +312,7 @@ TEST(Cell, BooksItsWork) {
 }
 
 TEST(Cell, AbsentItIsNoState) {
-  Scene scene = gas(4, 1.5, 1);
-  add_stage(scene, 0.05, 0.01);
+  TestScene scene = gas(4, 1.5, 1).lasting(0.05, 0.01);
   Simulation still(scene);
   EXPECT_FALSE(still.state().cell);  // it stands still
   EXPECT_TRUE(still.take_snapshot().cell);

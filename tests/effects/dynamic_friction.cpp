@@ -10,13 +10,11 @@ namespace {
 constexpr double mu_s = 0.6, mu_d = 0.2, speed = 0.5;
 
 /// A disc that cannot turn, at v on a floor in gravity tilted by some degrees.
-Scene block(double v, double slope_deg, double duration, double h) {
-  Scene scene = on_floor({{0, 0.5, 1, v}});
-  scene.effects.gravity = Gravity{9.81, -90 + slope_deg};
-  scene.effects.friction = Friction{mu_s, mu_s};
-  scene.effects.dynamic_friction = DynamicFriction{{mu_d, mu_d}, speed / time_s};
-  add_stage(scene, duration, h);
-  return scene;
+TestScene block(double v, double slope_deg, double duration, double h) {
+  return on_floor({{0, 0.5, 1, v}})
+      .with(Gravity{9.81, -90 + slope_deg}, Friction{mu_s, mu_s},
+            DynamicFriction{{mu_d, mu_d}, speed / time_s})
+      .lasting(duration, h);
 }
 
 /// dv/dt = -mu(v), from v0: y = exp(v / speed) obeys dy/dt = -(mu_d y + mu_s - mu_d) / speed.
@@ -35,26 +33,21 @@ TEST(DynamicFriction, LetsADiscSlideToRestWithAnErrorOfFirstOrder) {
 
 TEST(DynamicFriction, StopsADiscWhereItMust) {
   const double stops = speed / mu_d * std::log((mu_d * std::exp(4) + mu_s - mu_d) / mu_s), h = 5e-3;
-  Simulation simulation(block(2, 0, 1.1 * stops, h));
+  TestRun run(block(2, 0, 1.1 * stops, h));
   double rests_at = 0;
-  while (!simulation.finished()) {
-    (void)simulation.step();
-    if (rests_at == 0 && simulation.state().bodies.v_x[0] < 1e-9) rests_at = simulation.state().time();
-  }
+  run.each_step([&] {
+    if (rests_at == 0 && run.bodies().v_x[0] < 1e-9) rests_at = run.time();
+  });
   EXPECT_NEAR(rests_at, stops, 4 * h);
-  EXPECT_NEAR(simulation.state().bodies.v_x[0], 0, 1e-9);
+  EXPECT_NEAR(run.bodies().v_x[0], 0, 1e-9);
 }
 
 TEST(DynamicFriction, TakesTheSpeedAgainstABelt) {
-  Scene scene = block(0, 0, 3, 1e-2);
-  scene.stages[0].motions = {{"floor", Belt{2 / time_s}}};
-  add_stage(scene, 5, 1e-2);  // the speeds are the same after 7.34
-  scene.stages[1].motions = scene.stages[0].motions;
-  Simulation simulation(scene);
-  while (simulation.state().time() < 3 - 1e-9) (void)simulation.step();
-  EXPECT_NEAR(simulation.state().bodies.v_x[0], 2 - sliding(2, 3), 1e-2);
-  while (!simulation.finished()) (void)simulation.step();
-  EXPECT_NEAR(simulation.state().bodies.v_x[0], 2, 1e-8);  // it rides
+  TestRun run(block(0, 0, 8, 1e-2).moving("floor", Belt{2 * mm_s}));  // the speeds are the same after 7.34
+  run.to_time(3);
+  EXPECT_NEAR(run.bodies().v_x[0], 2 - sliding(2, 3), 1e-2);
+  run.to_end();
+  EXPECT_NEAR(run.bodies().v_x[0], 2, 1e-8);  // it rides
 }
 
 TEST(DynamicFriction, LetsADiscOnASlopeRestOrSlideAsItBegins) {
@@ -66,12 +59,11 @@ TEST(DynamicFriction, LetsADiscOnASlopeRestOrSlideAsItBegins) {
 
 TEST(DynamicFriction, OfAnImpactIsThatOfItsSpeed) {
   const double e = 0.5, v_t = 1, v_n = 0.3;
-  Scene scene = scene_of({{0, 0.55, 1, v_t, -v_n}});
-  scene.walls = {floor_wall()};
-  scene.effects.friction = Friction{mu_s, mu_s};
-  scene.effects.restitution = Restitution{e, e};
-  scene.effects.dynamic_friction = DynamicFriction{{mu_d, mu_d}, speed / time_s};
-  add_stage(scene, 0.5, 1e-2);
+  Scene scene =
+      scene_of({{0, 0.55, 1, v_t, -v_n}})
+          .between({floor_wall()})
+          .with(Friction{mu_s, mu_s}, Restitution{e, e}, DynamicFriction{{mu_d, mu_d}, speed / time_s})
+          .lasting(0.5, 1e-2);
   const double mu = mu_d + (mu_s - mu_d) * std::exp(-v_t / speed);
   EXPECT_NEAR(bodies_at_end(scene).v_x[0], v_t - mu * (1 + e) * v_n, 1e-8);
 }

@@ -32,27 +32,37 @@ TEST(EveryEffect, GoesOnFromACheckpointBitForBit) {
   const TemporaryFolder folder;
   with_each_effect([&](const std::string& name, const Scene& scene) {
     SCOPED_TRACE(name);
-    Simulation whole(scene);
-    while (whole.state().step < 50) (void)whole.step();
+    TestRun whole(scene);
+    whole.to_step(50);
     Checkpoint checkpoint;
     checkpoint.scene = scene_text(scene), checkpoint.state = whole.state();
     write_checkpoint(folder.path() / "checkpoint.h5", checkpoint);
-    Simulation rest(scene, read_checkpoint(folder.path() / "checkpoint.h5").state, 2);
-    while (!whole.finished()) (void)whole.step(), (void)rest.step();
-    expect_same(whole.state().bodies, rest.state().bodies);
+    const EndedRun rest(scene, read_checkpoint(folder.path() / "checkpoint.h5").state, 2);
+    whole.to_end();
+    expect_same(whole.bodies(), rest.bodies());
   });
+}
+
+void expect_cost(const Scene& scene, int unknowns, int velocities) {
+  TestRun run(scene);
+  EXPECT_EQ(run.stepper().unknowns_per_contact(), unknowns);
+  EXPECT_EQ(run.stepper().velocities_per_body(), velocities);
+  EXPECT_EQ(run.bodies().spin.empty(), velocities == 2);
+  const ContactMemory& memory = run.state().memory;
+  while (memory.i.empty()) (void)run.step();
+  EXPECT_EQ(memory.impulse.size(), unknowns * memory.i.size());
 }
 
 TEST(EveryEffect, CostsTheUnknownsOfItsType) {
   with_each_effect([](const std::string& name, const Scene& scene) {
-    Simulation simulation(scene);
-    const int unknowns = name == "rolling_resistance" ? 3 : 2;
-    EXPECT_EQ(simulation.stepper().unknowns_per_contact(), unknowns) << name;
-    EXPECT_EQ(simulation.stepper().velocities_per_body(), 3) << name;
-    while (simulation.state().memory.i.empty()) (void)simulation.step();
-    EXPECT_EQ(simulation.state().memory.impulse.size(), unknowns * simulation.state().memory.i.size())
-        << name;
+    SCOPED_TRACE(name);
+    expect_cost(scene, name == "rolling_resistance" ? 3 : 2, 3);
   });
+  Scene plain = turning_drum(30);
+  plain.effects.spin.reset();
+  expect_cost(plain, 2, 2);
+  plain.effects.friction.reset();
+  expect_cost(plain, 1, 2);
 }
 
 /// Effects of no strength, stages that repeat the effect's values, pairs that repeat the common ones.
@@ -79,6 +89,28 @@ TEST(EveryEffect, ThatChangesNothingChangesNoBit) {
   expect_no_change([](Scene& s) { s.stages[0].effects.cohesion = {1, 2}; });
 }
 
+/// Neither in the state nor in what is taken from it.
+TEST(EveryEffect, ThatIsAbsentLeavesNothing) {
+  Scene scene = turning_drum();
+  scene.grains.materials = {{"glass"}, {"steel"}};  // which no law asks for
+  scene.walls[0].material = "steel";
+  TestRun run(scene);
+  (void)run.step();
+  const SimulationState& state = run.state();
+  EXPECT_TRUE(state.driven.empty() && state.ends.empty() && state.marks.empty());
+  EXPECT_FALSE(state.gravity || state.loads || state.traffic || state.left || state.cell || state.energy);
+  EXPECT_TRUE(state.bodies.id.empty() && state.bodies.material.empty());
+  EXPECT_TRUE(run.walls().open.empty() && run.walls().material_of_shape.empty());
+  const Snapshot snapshot = run.take_snapshot();
+  EXPECT_TRUE(snapshot.wall_open.empty() && snapshot.id.empty() && snapshot.mass.empty());
+  EXPECT_FALSE(snapshot.cell);
+  const WallStep step = wall_step(run.walls(), 0, 0.01);
+  EXPECT_TRUE(step.driven.empty() && step.driven_of_shape.empty());
+  scene.effects.friction->pairs = {{{"glass", "steel"}, 0.1}};
+  EXPECT_EQ(Simulation(scene).state().bodies.material.size(), 60u);  // one byte per grain
+  EXPECT_EQ(sizeof(Bodies{}.material[0]), 1u);
+}
+
 TEST(EveryEffect, StandsInTheSceneThatIsWrittenBack) {
   with_each_effect([](const std::string& name, const Scene& scene) {
     const std::string text = scene_text(scene);
@@ -90,8 +122,7 @@ TEST(EveryEffect, StandsInTheSceneThatIsWrittenBack) {
 TEST(EveryEffect, LeavesALedgerThatCloses) {
   with_each_effect([](const std::string& name, Scene scene) {
     scene.output.energy_ledger = true;
-    EndedSimulation simulation(scene);
-    const EnergyLedger& ledger = *simulation.state().energy;
+    const EnergyLedger ledger = *EndedRun(scene).state().energy;
     EXPECT_LE(std::abs(closing_error(ledger)), 1e-10 * ledger.turnover) << name;
   });
 }

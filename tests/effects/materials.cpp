@@ -16,72 +16,48 @@ struct Made {
   double x, z, v_x;
   std::string material;
 };
-Scene scene_of_materials(const std::vector<Made>& grains) {
-  Scene scene = scene_of({});
-  const double speed = 1 / time_s;
+TestScene scene_of_materials(const std::vector<Made>& grains) {
+  TestScene scene = scene_of(std::vector<Grain>{});
   std::ofstream out(std::get<ListedGrains>(scene.grains.source).file);
   out.precision(17);
   out << "x_mm,z_mm,diameter_mm,v_x_mm_s,material\n";
-  for (const Made& g : grains)
-    out << g.x << ',' << g.z << ",1," << g.v_x * speed << ',' << g.material << '\n';
+  for (const Made& g : grains) out << g.x << ',' << g.z << ",1," << g.v_x * mm_s << ',' << g.material << '\n';
   scene.grains.materials = {{"glass"}, {"steel"}};
   return scene;
 }
 
-TEST(MaterialPairs, EachGrainSlidesWithTheFrictionOfItsOwnMaterial) {
+TEST(MaterialPairs, EachGrainSlidesWithTheFrictionOfItsPairOrElseTheCommonOne) {
   // Without spin a disc slides like a block: v = v0 - mu g t.
-  Scene scene = scene_of_materials({{0, 0.5, 1, "glass"}, {-10, 0.5, 1, "steel"}});
-  scene.walls = {floor_wall()};
-  scene.walls[0].material = "wood";
-  scene.effects.gravity = Gravity{};
-  scene.effects.friction = Friction{0.4, 0.5, {{{"glass", "wood"}, 0.1}, {{"wood", "steel"}, 0.3}}};
-  add_stage(scene, 1, 1e-2);
-  const Bodies end = bodies_at_end(scene);
-  EXPECT_NEAR(end.v_x[0], 1 - 0.1, 1e-9);
-  EXPECT_NEAR(end.v_x[1], 1 - 0.3, 1e-9);
-}
-
-TEST(MaterialPairs, APairThatIsNotNamedKeepsTheCommonValue) {
-  Scene scene = scene_of_materials({{0, 0.5, 1, "glass"}, {-10, 0.5, 1, "steel"}});
-  scene.walls = {floor_wall()};  // of no material
-  scene.effects.gravity = Gravity{};
-  scene.effects.friction = Friction{0.4, 0.5, {{{"glass", "steel"}, 0.1}}};
-  add_stage(scene, 1, 1e-2);
-  const Bodies end = bodies_at_end(scene);
-  EXPECT_NEAR(end.v_x[0], 1 - 0.5, 1e-9);
-  EXPECT_NEAR(end.v_x[1], 1 - 0.5, 1e-9);
+  const auto speeds = [](std::optional<std::string> of_floor, const Friction& friction) {
+    TestScene scene = scene_of_materials({{0, 0.5, 1, "glass"}, {-10, 0.5, 1, "steel"}})
+                          .between({floor_wall()})
+                          .with(Gravity{}, friction)
+                          .lasting(1, 1e-2);
+    scene.walls[0].material = of_floor;
+    return bodies_at_end(scene).v_x;
+  };
+  const auto named = speeds("wood", {0.4, 0.5, {{{"glass", "wood"}, 0.1}, {{"wood", "steel"}, 0.3}}}),
+             common = speeds({}, {0.4, 0.5, {{{"glass", "steel"}, 0.1}}});
+  EXPECT_NEAR(named[0], 1 - 0.1, 1e-9);
+  EXPECT_NEAR(named[1], 1 - 0.3, 1e-9);
+  for (const double v : common) EXPECT_NEAR(v, 1 - 0.5, 1e-9);
 }
 
 TEST(MaterialPairs, HeadOnImpactsPartWithTheRestitutionOfThePair) {
   // Equal masses: after the impact the first moves with (1 - e)/2, the second with (1 + e)/2 of the speed.
-  Scene scene = scene_of_materials(
-      {{0, 0, 1, "glass"}, {1.05, 0, 0, "glass"}, {0, 10, 1, "glass"}, {1.05, 10, 0, "steel"}});
-  scene.effects.restitution = Restitution{0, 0, {{{"glass", "glass"}, 0.8}, {{"steel", "glass"}, 0.3}}};
-  add_stage(scene, 0.2, 1e-2);
-  const Bodies end = bodies_at_end(scene);
-  EXPECT_NEAR(end.v_x[0], (1 - 0.8) / 2, 1e-9);
-  EXPECT_NEAR(end.v_x[1], (1 + 0.8) / 2, 1e-9);
-  EXPECT_NEAR(end.v_x[2], (1 - 0.3) / 2, 1e-9);
-  EXPECT_NEAR(end.v_x[3], (1 + 0.3) / 2, 1e-9);
-}
-
-TEST(MaterialPairs, MaterialsAreStoredOnlyIfALawAsksForThem) {
-  Scene scene = turning_drum();
-  scene.grains.materials = {{"glass"}, {"steel"}};
-  scene.walls[0].material = "steel";
-  EXPECT_TRUE(Simulation(scene).state().bodies.material.empty());
-  EXPECT_TRUE(walls_of(scene, scales_of(scene)).material_of_shape.empty());
-  scene.effects.friction->pairs = {{{"glass", "steel"}, 0.1}};
-  EXPECT_EQ(Simulation(scene).state().bodies.material.size(), 60u);  // one byte per grain
-  EXPECT_EQ(sizeof(Bodies{}.material[0]), 1u);
+  const Bodies end = bodies_at_end(
+      scene_of_materials(
+          {{0, 0, 1, "glass"}, {1.05, 0, 0, "glass"}, {0, 10, 1, "glass"}, {1.05, 10, 0, "steel"}})
+          .with(Restitution{0, 0, {{{"glass", "glass"}, 0.8}, {{"steel", "glass"}, 0.3}}})
+          .lasting(0.2, 1e-2));
+  const double expected[] = {(1 - 0.8) / 2, (1 + 0.8) / 2, (1 - 0.3) / 2, (1 + 0.3) / 2};
+  for (int k = 0; k < 4; ++k) EXPECT_NEAR(end.v_x[k], expected[k], 1e-9) << k;
 }
 
 TEST(MaterialPairs, SharesAreDrawnByNumber) {
-  Scene scene = turning_drum();
-  scene.grains.source = GeneratedGrains{4000, 3, 3.6, RectangleRegion{{0, 0}, {1000, 1000}}};
-  scene.walls.clear();
+  TestScene scene = scene_of(GeneratedGrains{4000, 3, 3.6, RectangleRegion{{0, 0}, {1000, 1000}}});
   scene.grains.materials = {{"glass", 3}, {"steel", 1}};
-  scene.effects.friction->pairs = {{{"glass", "steel"}, 0.1}};
+  scene.with(Friction{0.4, 0.4, {{{"glass", "steel"}, 0.1}}}).lasting(1, 0.1);
   const auto materials = place_grains(scene, scales_of(scene)).material;
   const auto steel = std::accumulate(materials.begin(), materials.end(), 0.0);
   EXPECT_NEAR(steel / 4000, 0.25, 4 * std::sqrt(0.25 * 0.75 / 4000));  // 4 standard deviations
@@ -92,15 +68,12 @@ TEST(WallsThatActOnAMaterial, LetOthersPass) {
   // over.
   const double t = 4;
   const auto end_of = [&](const Wall& wall, const std::vector<Made>& grains, double h, bool falls = false) {
-    Scene scene = scene_of_materials(grains);
-    scene.walls = {wall};
+    TestScene scene = scene_of_materials(grains).between({wall}).lasting(t, h);
     scene.walls[0].acts_on = {"steel"};
-    if (falls) scene.effects.gravity = Gravity{};
-    add_stage(scene, t, h);
-    Simulation simulation(scene);
-    while (!simulation.finished()) EXPECT_FALSE(simulation.step().lost);
-    EXPECT_EQ(simulation.start_overlaps().pairs, 0);
-    return simulation.state().bodies;
+    TestRun run(falls ? scene.with(Gravity{}) : scene);
+    run.each_step([](const StepReport& report) { EXPECT_FALSE(report.lost); });
+    EXPECT_EQ(run.start_overlaps().pairs, 0);
+    return run.bodies();
   };
   const Bodies fallen =
       end_of(floor_wall(), {{0, 2, 0, "glass"}, {5, 0, 0, "glass"}, {-5, 2, 0, "steel"}}, 1e-2, true);
@@ -109,17 +82,17 @@ TEST(WallsThatActOnAMaterial, LetOthersPass) {
   EXPECT_NEAR(fallen.z[2], 0.5, 1e-6);
   const std::vector<Made> flying{{0, 2, 1, "glass"}, {0, -2, 1, "steel"}},
       jumping{{0, 2, 8, "glass"}, {0, -2, 1, "steel"}};
-  const Bodies flown = end_of({"drum", ContainerShape{{0, 0}, 3}}, flying, 1e-2);
+  const Bodies flown = end_of(drum_wall(3), flying, 1e-2);
   EXPECT_NEAR(flown.x[0], t, 1e-9);
   EXPECT_LT(std::hypot(flown.x[1], flown.z[1]), 2.5 + 1e-3);
-  const Bodies jumped = end_of({"line", SegmentShape{{3, -5}, {3, 5}}}, jumping, 0.25);
+  const Bodies jumped = end_of(segment("line", {3, -5}, {3, 5}), jumping, 0.25);
   EXPECT_NEAR(jumped.x[0], 8 * t, 1e-9);
   EXPECT_NEAR(jumped.x[1], 2.5, 1e-3);
 }
 
 TEST(MaterialPairs, AListThatNamesAnUnknownMaterialIsRefused) {
-  Scene scene = scene_of_materials({{0, 0.5, 1, "cork"}});
-  scene.effects.friction = Friction{0.4, 0.5, {{{"glass", "steel"}, 0.1}}};
+  const Scene scene =
+      scene_of_materials({{0, 0.5, 1, "cork"}}).with(Friction{0.4, 0.5, {{{"glass", "steel"}, 0.1}}});
   EXPECT_THROW(place_grains(scene, scales_of(scene)), InputError);
 }
 

@@ -131,12 +131,20 @@ const Case cases[] = {
      }},
 };
 
-std::vector<double> moments(const std::optional<WallLoads>& loads) {
-  if (!loads) return {};
-  std::vector<double> all{loads->time};
-  for (const WallLoad& load : loads->walls)
-    all.insert(all.end(),
-               {load.moment, load.impulse_x, load.place.angle, load.last.angle - load.first.angle});
+/// What a run leaves beside places and velocities.
+std::vector<double> numbers_of(const TestRun& run) {
+  const SimulationState& state = run.state();
+  std::vector<double> all(state.bodies.id.begin(), state.bodies.id.end());
+  const auto add = [&all](const auto&... numbers) { (all.push_back(static_cast<double>(numbers)), ...); };
+  const auto append = [&all](const auto& list) { all.insert(all.end(), list.begin(), list.end()); };
+  append(state.memory.impulse), append(run.plan().snapshot_steps);
+  add(state.step, state.ends.size());
+  for (const DrivenState& driven : state.driven) add(driven.position, driven.velocity);
+  if (const auto& cell = state.cell) add(cell->length_x, cell->length_z, cell->rate_z, cell->offset);
+  if (!state.loads) return all;
+  add(state.loads->time);
+  for (const WallLoad& load : state.loads->walls)
+    add(load.moment, load.impulse_x, load.place.angle, load.last.angle - load.first.angle);
   return all;
 }
 
@@ -146,64 +154,41 @@ TEST_P(Restart, ContinuesBitForBitOnAnyThreads) {
   const TemporaryFolder folder;
   Scene scene = turning_drum();
   GetParam().add(scene);
-  Simulation whole(scene), first(scene);
-  for (int k = 0; k < 117; ++k) (void)first.step();
-  while (!whole.finished()) (void)whole.step();
+  const EndedRun whole(scene);
+  TestRun first(scene);
+  first.to_step(117);
   Checkpoint checkpoint;
   checkpoint.state = first.state();
   write_checkpoint(folder.path() / "checkpoint.h5", checkpoint);
-  Simulation second(scene, read_checkpoint(folder.path() / "checkpoint.h5").state, 2);
-  while (!second.finished()) (void)second.step();
-  expect_same(whole.state().bodies, second.state().bodies);
-  EXPECT_EQ(whole.state().bodies.id, second.state().bodies.id);
-  EXPECT_EQ(whole.state().memory.impulse, second.state().memory.impulse);
-  ASSERT_EQ(whole.state().driven.size(), second.state().driven.size());
-  for (std::size_t k = 0; k < whole.state().driven.size(); ++k) {
-    EXPECT_EQ(whole.state().driven[k].position, second.state().driven[k].position);
-    EXPECT_EQ(whole.state().driven[k].velocity, second.state().driven[k].velocity);
-  }
-  ASSERT_EQ(whole.state().cell.has_value(), second.state().cell.has_value());
-  if (whole.state().cell) {
-    EXPECT_EQ(whole.state().cell->length_x, second.state().cell->length_x);
-    EXPECT_EQ(whole.state().cell->length_z, second.state().cell->length_z);
-    EXPECT_EQ(whole.state().cell->rate_z, second.state().cell->rate_z);
-    EXPECT_EQ(whole.state().cell->offset, second.state().cell->offset);
-  }
+  const EndedRun second(scene, read_checkpoint(folder.path() / "checkpoint.h5").state, 2);
+  expect_same(whole.bodies(), second.bodies());
+  EXPECT_EQ(numbers_of(whole), numbers_of(second));
   if (whole.state().traffic) {
     EXPECT_GT(whole.state().traffic->poured[0], 10);
     EXPECT_GT(whole.state().traffic->outlets[0].taken(), 3);
   }
-  EXPECT_EQ(whole.state().step, second.state().step);
-  EXPECT_EQ(whole.state().ends.size(), second.state().ends.size());
-  EXPECT_EQ(whole.plan().snapshot_steps, second.plan().snapshot_steps);
-  EXPECT_EQ(moments(whole.state().loads), moments(second.state().loads));
   // The effect does something: without it the end is another.
-  EXPECT_NE(whole.state().bodies.x, bodies_at_end(turning_drum()).x);
+  EXPECT_NE(whole.bodies().x, bodies_at_end(turning_drum()).x);
 }
 
 TEST(Prolong, GivesWhatTheLongerSceneGives) {
   Scene scene = turning_drum();
   scene.stages[0].snapshots = 4;
-  Simulation shorter(scene);
-  while (!shorter.finished()) {
-    (void)shorter.step();
+  TestRun shorter(scene);
+  shorter.each_step([&] {
     if (shorter.snapshot_due()) (void)shorter.take_snapshot();
-  }
+  });
   SimulationState state = shorter.state();
   const Scene longer = prolonged(scene, 0.1, state);
   EXPECT_EQ(longer.stages[0].snapshots, 6);
   EXPECT_NEAR(*longer.stages[0].duration_s, 0.3, 1e-12);
-  Simulation whole(longer), second(longer, state);
-  while (!whole.finished()) {
-    (void)whole.step();
-    if (whole.snapshot_due() && !whole.finished()) (void)whole.take_snapshot();
-  }
-  while (!second.finished()) {
-    (void)second.step();
-    if (second.snapshot_due() && !second.finished()) (void)second.take_snapshot();
-  }
+  TestRun whole(longer), second(longer, state);
+  for (TestRun* run : {&whole, &second})
+    run->each_step([run] {
+      if (run->snapshot_due() && !run->finished()) (void)run->take_snapshot();
+    });
   EXPECT_EQ(whole.state().step, 300);
-  expect_same(whole.state().bodies, second.state().bodies);
+  expect_same(whole.bodies(), second.bodies());
   EXPECT_EQ(whole.state().memory.impulse, second.state().memory.impulse);
   EXPECT_EQ(whole.state().snapshots, second.state().snapshots);
   EXPECT_EQ(whole.take_snapshot().displacement_x, second.take_snapshot().displacement_x);
@@ -233,11 +218,11 @@ TEST(Prolong, LeavesASceneThatIsReadAgainWhereTheStepWasAdjusted) {
 
 TEST(Prolong, RefusesWhatWouldHaveGoneAnotherWay) {
   Scene scene = turning_drum(5);
-  Simulation simulation(scene);
-  SimulationState state = simulation.state();
+  TestRun run(scene);
+  SimulationState state = run.state();
   EXPECT_THROW((void)prolonged(scene, 0.1, state), InputError);  // not finished
-  while (!simulation.finished()) (void)simulation.step();
-  state = simulation.state();
+  run.to_end();
+  state = run.state();
   scene.stages[0].snapshots = 100;  // every second step, the window being six
   EXPECT_THROW((void)prolonged(scene, 0.1, state), InputError);
   scene.stages[0].snapshots = 0;

@@ -12,65 +12,55 @@ using namespace particles;
 using namespace test;
 namespace {
 
-Scene on_a_floor(double v, double slope_deg, double mu, double mu_r) {
-  Scene scene = on_floor({{0, 0.5, 1, v, 0, 2 * v}});
-  scene.effects.gravity = Gravity{9.81, -90 + slope_deg};
-  scene.effects.friction = Friction{mu, mu};
-  scene.effects.spin = Spin{};
-  scene.effects.rolling_resistance = RollingResistance{mu_r, mu_r};
-  return scene;
+TestScene on_a_floor(double v, double slope_deg, double mu, double mu_r) {
+  return on_floor({{0, 0.5, 1, v, 0, 2 * v}})
+      .with(Gravity{9.81, -90 + slope_deg}, Friction{mu, mu}, Spin{}, RollingResistance{mu_r, mu_r});
 }
 
 TEST(RollingResistance, SlowsARollingDiscByTwoThirdsOfItsShareOfGravity) {
   // m a = -F, J alpha = F r - mu_r m g r with J = m r^2 / 2 and a = r alpha: a = -2/3 mu_r g.
   const double v0 = 1, mu_r = 0.3;
-  Scene scene = on_a_floor(v0, 0, 0.8, mu_r);
-  add_stage(scene, 6, 1e-2);  // it stops at 5
-  Simulation simulation(scene);
-  while (!simulation.finished()) {
-    (void)simulation.step();
-    const double expected = std::max(0.0, v0 - 2.0 / 3 * mu_r * simulation.state().time());
-    ASSERT_NEAR(simulation.state().bodies.v_x[0], expected, 1e-9);
-    ASSERT_NEAR(simulation.state().bodies.spin[0], 2 * expected, 1e-9);
-  }
+  TestRun run(on_a_floor(v0, 0, 0.8, mu_r).lasting(6, 1e-2));  // it stops at 5
+  run.each_step([&] {
+    const double expected = std::max(0.0, v0 - 2.0 / 3 * mu_r * run.time());
+    ASSERT_NEAR(run.bodies().v_x[0], expected, 1e-9);
+    ASSERT_NEAR(run.bodies().spin[0], 2 * expected, 1e-9);
+  });
 }
 
 TEST(RollingResistance, HoldsADiscOnASlopeBelowItsCoefficient) {
   // About the contact: m g sin r against at most mu_r m g cos r.
-  Scene scene = on_a_floor(0, 20, 1, std::tan(std::numbers::pi / 9) + 1e-3);
-  add_stage(scene, 2, 1e-2);
-  EXPECT_NEAR(bodies_at_end(scene).v_x[0], 0, 1e-9);
+  EXPECT_NEAR(
+      bodies_at_end(on_a_floor(0, 20, 1, std::tan(std::numbers::pi / 9) + 1e-3).lasting(2, 1e-2)).v_x[0], 0,
+      1e-9);
 }
 
 TEST(RollingResistance, LetsADiscRollOnASteeperSlope) {
   // a = 2/3 g (sin - mu_r cos); friction (tan - mu_r)/3 + mu_r = 0.19 of the load is there.
   const double slope = std::numbers::pi / 9, mu_r = 0.1;
-  Scene scene = on_a_floor(0, 20, 0.8, mu_r);
-  add_stage(scene, 2, 1e-2);
-  EXPECT_NEAR(bodies_at_end(scene).v_x[0] / 2, 2.0 / 3 * (std::sin(slope) - mu_r * std::cos(slope)), 1e-8);
+  EXPECT_NEAR(bodies_at_end(on_a_floor(0, 20, 0.8, mu_r).lasting(2, 1e-2)).v_x[0] / 2,
+              2.0 / 3 * (std::sin(slope) - mu_r * std::cos(slope)), 1e-8);
 }
 
 TEST(RollingResistance, HoldsASpinningDiscBetweenTurningWalls) {
   // Without gravity nothing presses, without load nothing resists: the spin stays.
-  Scene scene = scene_of({{0, 0.5, 1, 0, 0, 3}});
-  scene.walls = {floor_wall()};
-  scene.effects.friction = Friction{0.5, 0.5};
-  scene.effects.spin = Spin{};
-  scene.effects.rolling_resistance = RollingResistance{0.5, 0.5};
-  add_stage(scene, 1, 1e-2);
-  EXPECT_EQ(bodies_at_end(scene).spin[0], 3);
+  EXPECT_EQ(bodies_at_end(scene_of({{0, 0.5, 1, 0, 0, 3}})
+                              .between({floor_wall()})
+                              .with(Friction{0.5, 0.5}, Spin{}, RollingResistance{0.5, 0.5})
+                              .lasting(1, 1e-2))
+                .spin[0],
+            3);
 }
 
 TEST(RollingResistance, ReckonsTheTurningOfAWallIn) {
   // A disc that lies on a turning drum, at the drum's velocity, stays where it is on the wall, neither
   // sliding nor rolling, until the slope there reaches mu_r.
   const double spin = 0.05, duration = 5;
-  Scene scene = scene_of({{0, -9.5, 1, -9.5 * spin, 0, spin}});
-  scene.walls = {{"drum", ContainerShape{{0, 0}, 10}}};
-  scene.effects = {Gravity{}, Friction{2, 2}, std::nullopt, Spin{}, RollingResistance{1, 1}};
-  add_stage(scene, duration, 1e-2);
-  scene.stages[0].motions = {{"drum", Rotation{spin / time_s * 60 / (2 * std::numbers::pi), {0, 0}}}};
-  const Bodies end = bodies_at_end(scene);
+  const Bodies end = bodies_at_end(scene_of({{0, -9.5, 1, -9.5 * spin, 0, spin}})
+                                       .between({drum_wall(10)})
+                                       .with(Gravity{}, Friction{2, 2}, Spin{}, RollingResistance{1, 1})
+                                       .lasting(duration, 1e-2)
+                                       .moving("drum", turning(spin)));
   // An angle of 0.25 rad, where tan = 0.255 < 1; first order in the step.
   EXPECT_NEAR(end.spin[0], spin, 1e-6);
   EXPECT_NEAR(end.x[0], -9.5 * std::sin(spin * duration), 1e-2);
@@ -82,13 +72,8 @@ TEST(RollingResistance, OfZeroStrengthIsNone) {
   plain.solver.max_sweeps = weak.solver.max_sweeps = 5000;
   plain.stages[0].duration_s = weak.stages[0].duration_s = 0.05;
   weak.effects.rolling_resistance = RollingResistance{0, 0};
-  const Bodies a = bodies_at_end(plain), b = bodies_at_end(weak);
   // Contacts are solved in another order: alike up to the tolerance and what impacts make of it.
-  for (std::size_t k = 0; k < a.count(); ++k) {
-    EXPECT_NEAR(a.x[k], b.x[k], 1e-6);
-    EXPECT_NEAR(a.z[k], b.z[k], 1e-6);
-    EXPECT_NEAR(a.spin[k], b.spin[k], 1e-5);
-  }
+  expect_near(bodies_at_end(plain), bodies_at_end(weak), 1e-6);
 }
 
 /// W_aa by unit impulses, against the block that the sweep uses.

@@ -7,7 +7,6 @@
 #include "coupling/core/basics/errors.hpp"
 #include "particles/detection/contact_list.hpp"
 #include "particles/scene/placement.hpp"
-#include "particles/stepping/wall_crossing.hpp"
 #include "tests/effects/drums.hpp"
 
 namespace drumlin {
@@ -126,118 +125,6 @@ TEST(Sizes, PlacedGrainsLieInTheRegionAndNotInEachOther) {
   EXPECT_GT(largest / smallest, 30);
   // From below, and dense: not scattered over the whole region.
   EXPECT_GT(area / (400 * unit * top), 0.35);
-}
-
-TEST(WallCrossing, IsUndoneOntoTheSideItCameFrom) {
-  const Segment floor{{-2, 0}, {2, 0}}, lifted{{-2, 0.1}, {2, 0.1}};
-  const auto after = [&](double x, double z, double v_x, double v_z, const Segment& to, double& depth) {
-    Bodies bodies;
-    add_body(bodies, x - v_x, z - v_z, 0.5);
-    const WallStep step{{floor}, {to}, {Pose{0, to.from.x - floor.from.x, to.from.z - floor.from.z}}};
-    WallCrossings crossings;
-    crossings.begin(bodies, step.before);
-    bodies.x[0] = x, bodies.z[0] = z;
-    depth = crossings.undo(step, {}, bodies).deepest;
-    return Point{bodies.x[0], bodies.z[0]};
-  };
-  double depth = 0;
-  EXPECT_NEAR(after(0, -0.2, 0, -1, floor, depth).z, 0.5, 1e-15);  // from 0.8 to -0.2
-  EXPECT_NEAR(depth, 0.7, 1e-15);
-  EXPECT_NEAR(after(0, 0.2, 0, 1, floor, depth).z, -0.5, 1e-15);   // from below
-  EXPECT_NEAR(after(0, 0.05, 0, 0, lifted, depth).z, 0.6, 1e-15);  // the wall passed the disc
-  EXPECT_NEAR(after(0, 0.05, 0, 0, floor, depth).z, 0.05, 0);      // deep, but not through
-  EXPECT_EQ(depth, 0);
-  EXPECT_NEAR(after(3, -0.2, 0, -1, floor, depth).z, -0.2, 0);  // past its end
-}
-
-TEST(WallCrossing, IsSeenAtTheSeamOfAPeriodicDomain) {
-  // A floor as long as the period; the way crosses it just where the period ends.
-  const Segment floor{{0, 0}, {10, 0}};
-  const WallStep step{{floor}, {floor}, {Pose{}}};
-  for (const double x : {-0.01, 9.99, 20.02}) {
-    Bodies bodies;
-    add_body(bodies, x, 0.1, 0.5);
-    WallCrossings crossings;
-    crossings.begin(bodies, step.before);
-    bodies.x[0] += 0.03, bodies.z[0] -= 0.3;
-    EXPECT_NEAR(crossings.undo(step, {0, 10}, bodies).deepest, 0.7, 1e-12) << x;
-    EXPECT_NEAR(bodies.z[0], 0.5, 1e-12);
-    EXPECT_NEAR(bodies.x[0], x + 0.03, 1e-12);
-  }
-}
-
-TEST(WallCrossing, OfAWallThatTurnsIsSeenFromTheWall) {
-  // The end of an arm sweeps over a disc at rest, which stays before it.
-  const Segment arm{{0, 0}, {10, 0}};
-  const Pose turn{0.03, 0, 0};
-  const WallStep step{{arm}, {moved(Rigid(turn), Shape(arm))}, {turn}};
-  Bodies bodies;
-  add_body(bodies, 9, -0.1, 0.5);
-  WallCrossings crossings;
-  crossings.begin(bodies, step.before);
-  EXPECT_GT(crossings.undo(step, {}, bodies).deepest, 0.5);
-  const Point seen = moved(inverse(turn), {bodies.x[0], bodies.z[0]});
-  EXPECT_NEAR(seen.z, -0.5, 1e-12);
-}
-
-TEST(WallCrossing, InACornerEndsWithinBothWalls) {
-  const Segment floor{{0, 0}, {10, 0}}, left{{0, 0}, {0, 10}};
-  const WallStep step{{floor, left}, {floor, left}, {Pose{}, Pose{}}};
-  for (const double slope : {0.5, 1.0, 2.0}) {
-    Bodies bodies;
-    add_body(bodies, 0.3, 0.3, 0.5);
-    WallCrossings crossings;
-    crossings.begin(bodies, step.before);
-    bodies.x[0] -= 0.4 * slope, bodies.z[0] -= 0.4;
-    EXPECT_FALSE(crossings.undo(step, {}, bodies).lost);
-    EXPECT_GT(bodies.x[0], 0) << slope;
-    EXPECT_GT(bodies.z[0], 0) << slope;
-  }
-}
-
-TEST(WallCrossing, OfManySidesLooksAtThoseNearby) {
-  // Of 400 discs in rings one leaves the polygon, and is laid back.
-  const auto looked_at = [](int sides) {
-    const auto corner = [&](int k) {
-      const double angle = 2 * std::numbers::pi * k / sides;
-      return Point{30 * std::cos(angle), 30 * std::sin(angle)};
-    };
-    std::vector<Shape> walls;
-    for (int k = 0; k < sides; ++k) walls.emplace_back(Segment{corner(k), corner(k + 1)});
-    const WallStep step{walls, walls, std::vector<ShapeStep>(walls.size())};
-    Bodies bodies;
-    for (int k = 0; k < 400; ++k) {
-      const double distance = 29.4 - 1.1 * (k / 160), angle = 2 * std::numbers::pi * (k % 160 + 0.25) / 160;
-      add_body(bodies, distance * std::cos(angle), distance * std::sin(angle), 0.5);
-    }
-    WallCrossings crossings;
-    crossings.begin(bodies, step.before);
-    bodies.x[0] += 0.7;
-    EXPECT_NEAR(crossings.undo(step, {}, bodies).deepest, 0.6, 0.05) << sides;
-    EXPECT_NEAR(std::hypot(bodies.x[0], bodies.z[0]), 29.5, 0.05);
-    return crossings.looked_at();
-  };
-  const auto few = looked_at(100), many = looked_at(10000);
-  EXPECT_LT(many, 10 * few);
-}
-
-TEST(WallCrossing, OfAContainerIsUndoneUnlessTheDiscFlewOut) {
-  const Container drum{{0, 0}, 5};
-  const WallStep step{{drum}, {drum}, {Pose{}}};
-  const auto x_after = [&](double from, double to) {
-    Bodies bodies;
-    add_body(bodies, from, 0, 0.1);
-    add_body(bodies, 0, 0, 1);
-    WallCrossings crossings;
-    crossings.begin(bodies, step.before);
-    bodies.x[0] = to;
-    (void)crossings.undo(step, {}, bodies);
-    return bodies.x[0];
-  };
-  EXPECT_NEAR(x_after(4.8, 5.2), 4.9, 1e-12);
-  EXPECT_EQ(x_after(4.8, 4.95), 4.95);
-  EXPECT_EQ(x_after(4.1, 5.2), 5.2);  // further than the largest radius
-  EXPECT_EQ(x_after(5.1, 5.2), 5.2);  // was outside before
 }
 
 TEST(Sizes, AreAbsentUnlessNamed) {

@@ -23,10 +23,9 @@ Scene box(Placement placement) {
 }
 
 TEST(StandingStart, TheFloorCarriesTheWeight) {
-  const Scene scene = box(Placement::deposited);
-  const Simulation simulation(scene);
-  const Bodies& bodies = simulation.state().bodies;
-  const ContactMemory& memory = simulation.state().memory;
+  const TestRun run(box(Placement::deposited));
+  const Bodies& bodies = run.bodies();
+  const ContactMemory& memory = run.state().memory;
   double weight = 0, on_floor = 0, left = 0, right = 0;
   for (const double inverse_mass : bodies.inverse_mass) weight += memory.time_step / inverse_mass;
   for (std::size_t a = 0; a < memory.i.size(); ++a) {
@@ -47,9 +46,9 @@ TEST(StandingStart, SavesSweepsOfTheFirstSteps) {
     Simulation started(scene);
     SimulationState state = started.state();
     if (forget) state.memory = {};
-    Simulation simulation(scene, std::move(state));
+    TestRun run(scene, std::move(state));
     int sum = 0;
-    while (!simulation.finished()) sum += simulation.step().solve.sweeps;
+    while (!run.finished()) sum += run.step().solve.sweeps;
     return sum;
   };
   const Scene scene = box(Placement::deposited);

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "particles/scene/effect_variants.hpp"
+#include "particles/scene/scene_file.hpp"
 #include "tests/effects/drums.hpp"
 #include "tests/support/says.hpp"
 
@@ -18,39 +19,30 @@ const EffectVariant* find(const std::vector<EffectVariant>& variants, const std:
   return found == variants.end() ? nullptr : &*found;
 }
 
-int unknowns(const EffectVariant& variant) {
-  return Simulation(variant.scene).stepper().unknowns_per_contact();
-}
-
 TEST(EffectVariants, TakeAwayWhatIsNamedAndAddWhatIsNot) {
   const auto variants = effect_variants(turning_drum(12));
   ASSERT_EQ(variants.front().change, EffectChange::none);
-  for (const char* effect : {"gravity", "friction", "spin", "restitution", "sizes"}) {
-    EXPECT_NE(find(variants, effect, EffectChange::removed), nullptr) << effect;
-    EXPECT_EQ(find(variants, effect, EffectChange::added), nullptr) << effect;
-  }
-  for (const char* effect : {"rolling_resistance", "pairs", "cohesion", "rotating_frame", "rough walls"}) {
-    EXPECT_EQ(find(variants, effect, EffectChange::removed), nullptr) << effect;
-    EXPECT_NE(find(variants, effect, EffectChange::added), nullptr) << effect;
-  }
-}
-
-TEST(EffectVariants, CostWhatTheirTypesSay) {
-  const auto variants = effect_variants(turning_drum(12));
-  EXPECT_EQ(unknowns(variants.front()), 2);
-  EXPECT_EQ(unknowns(*find(variants, "friction", EffectChange::removed)), 1);
-  EXPECT_EQ(unknowns(*find(variants, "spin", EffectChange::removed)), 2);
-  EXPECT_EQ(unknowns(*find(variants, "rolling_resistance", EffectChange::added)), 3);
-  EXPECT_EQ(unknowns(*find(variants, "cohesion", EffectChange::added)), 2);
-  const Simulation no_spin(find(variants, "spin", EffectChange::removed)->scene);
-  EXPECT_TRUE(no_spin.state().bodies.spin.empty());
+  const auto expect_change = [&](EffectChange change, EffectChange other, auto... effects) {
+    for (const char* effect : {effects...}) {
+      const EffectVariant* found = find(variants, effect, change);
+      ASSERT_NE(found, nullptr) << effect;
+      EXPECT_EQ(find(variants, effect, other), nullptr) << effect;
+      EXPECT_NE(scene_text(found->scene), scene_text(variants.front().scene)) << effect;
+    }
+  };
+  expect_change(EffectChange::removed, EffectChange::added, "gravity", "friction", "spin", "restitution",
+                "sizes");
+  expect_change(EffectChange::added, EffectChange::removed, "rolling_resistance", "pairs", "cohesion",
+                "rotating_frame", "rough walls");
+  EXPECT_FALSE(find(variants, "spin", EffectChange::removed)->scene.effects.spin);
+  EXPECT_TRUE(find(variants, "cohesion", EffectChange::added)->scene.effects.cohesion);
 }
 
 TEST(EffectVariants, RunOrSayWhyNot) {
   for (const auto& variant : effect_variants(turning_drum(12))) {
     EXPECT_EQ(variant.refused, "") << variant.effect;
-    Simulation simulation(variant.scene);
-    for (int k = 0; k < 5; ++k) (void)simulation.step();
+    TestRun run(variant.scene);
+    for (int k = 0; k < 5; ++k) (void)run.step();
   }
   // Grains that fill a box to its walls leave no room for glued discs.
   Scene full = turning_drum(12);

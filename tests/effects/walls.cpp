@@ -11,33 +11,31 @@ namespace {
 
 /// A disc on a plate that shakes vertically, z = A sin(rate t), A rate^2 = `acceleration` g.
 Scene shaken_plate(double acceleration, double rate) {
-  Scene scene = on_floor({{0, 0.5}});
-  add_stage(scene, 2 * 2 * std::numbers::pi / rate, 1e-3);
-  scene.stages[0].motions = {
-      {"floor", Oscillation{{0, acceleration / (rate * rate)}, rate / (2 * std::numbers::pi) / time_s, 0}}};
-  return scene;
+  return on_floor({{0, 0.5}})
+      .lasting(2 * 2 * std::numbers::pi / rate, 1e-3)
+      .moving("floor",
+              Oscillation{{0, acceleration / (rate * rate)}, rate / (2 * std::numbers::pi) / time_s, 0});
 }
 
 TEST(ShakenPlate, CarriesADiscAlongBelowGravity) {
   const double rate = 2, A = 0.9 / (rate * rate);
-  Simulation simulation(shaken_plate(0.9, rate));
-  while (!simulation.finished()) {
-    (void)simulation.step();
+  TestRun run(shaken_plate(0.9, rate));
+  run.each_step([&] {
     // On the exact place of the plate, at every time, without drift.
-    ASSERT_NEAR(simulation.state().bodies.z[0], 0.5 + A * std::sin(rate * simulation.state().time()), 1e-8);
-  }
+    ASSERT_NEAR(run.bodies().z[0], 0.5 + A * std::sin(rate * run.time()), 1e-8);
+  });
 }
 
 TEST(ShakenPlate, ThrowsADiscUpWhereItFallsFasterThanGravity) {
   // Lift-off where A rate^2 sin(rate t) = g. Then the gap grows as A rate^3 cos(rate t) tau^3 / 6 = 0.37
   // tau^3 and is seen, above 1e-8, after 3e-3 and up to two steps.
   const double rate = 2, acceleration = 1.5, A = acceleration / (rate * rate);
-  Simulation simulation(shaken_plate(acceleration, rate));
+  TestRun run(shaken_plate(acceleration, rate));
   double lifts_at = 0;
-  while (lifts_at == 0 && !simulation.finished()) {
-    (void)simulation.step();
-    const double t = simulation.state().time();
-    if (simulation.state().bodies.z[0] > 0.5 + A * std::sin(rate * t) + 1e-8) lifts_at = t;
+  while (lifts_at == 0 && !run.finished()) {
+    (void)run.step();
+    const double t = run.time();
+    if (run.bodies().z[0] > 0.5 + A * std::sin(rate * t) + 1e-8) lifts_at = t;
   }
   EXPECT_NEAR(lifts_at, std::asin(1 / acceleration) / rate, 5e-3);
 }
@@ -51,26 +49,26 @@ TEST(Shaft, OfExactlyTheWidthOfADiscLetsItFallFreely) {
         const double angle = degrees * std::numbers::pi / 180, n_x = std::cos(angle), n_z = std::sin(angle);
         const Point middle{10.0 / 3, 100.1}, along{n_z, -n_x};
         if (falls && degrees > 0) continue;  // a wall would carry it
-        Scene scene = scene_of({{middle.x, middle.z, 1, falls ? 0 : 3 * along.x, falls ? 0 : 3 * along.z}});
+        TestScene scene =
+            scene_of({{middle.x, middle.z, 1, falls ? 0 : 3 * along.x, falls ? 0 : 3 * along.z}})
+                .lasting(4, 0.02);
         for (const double side : {-0.5, 0.5}) {
           const Point foot{middle.x + side * n_x, middle.z + side * n_z};
-          scene.walls.push_back({"shaft", SegmentShape{{foot.x - 60 * along.x, foot.z - 60 * along.z},
-                                                       {foot.x + 60 * along.x, foot.z + 60 * along.z}}});
+          scene.walls.push_back(segment("shaft", {foot.x - 60 * along.x, foot.z - 60 * along.z},
+                                        {foot.x + 60 * along.x, foot.z + 60 * along.z}));
         }
         scene.solver = {};  // a wall that is too near by rounding misses finer tolerances
-        if (falls) scene.effects.gravity = Gravity{};
-        if (bounces) scene.effects.restitution = Restitution{0.5, 0.5};
-        add_stage(scene, 4, 0.02);
-        Simulation simulation(scene);
-        while (!simulation.finished()) {
-          const StepReport report = simulation.step();
+        if (falls) scene.with(Gravity{});
+        if (bounces) scene.with(Restitution{0.5, 0.5});
+        TestRun run(scene);
+        run.each_step([&](const StepReport& report) {
           ASSERT_TRUE(is_converged(report)) << degrees << falls << bounces;
           ASSERT_LT(report.solve.residual.rms, 1e-2);
           ASSERT_LT(report.solve.residual.max, 1e-1);
           ASSERT_LT(report.solve.residual.sinking, 1e-10);
           ASSERT_LE(report.solve.sweeps, 100);
-        }
-        const Bodies& bodies = simulation.state().bodies;
+        });
+        const Bodies& bodies = run.bodies();
         EXPECT_NEAR(bodies.v_x[0], falls ? 0 : 3 * along.x, 1e-6);
         EXPECT_NEAR(bodies.v_z[0], falls ? -4 : 3 * along.z, 1e-6);
       }
@@ -88,6 +86,21 @@ TEST(Rocking, ReachesItsAmplitudeAndComesBackExactly) {
   EXPECT_NEAR(end_at(0.25).z, -0.5 * std::sin(0.3), 1e-14);  // clockwise
   EXPECT_NEAR(end_at(1000).x, 1, 1e-10);
   EXPECT_NEAR(end_at(1000).z, 0, 1e-10);
+}
+
+TEST(RotatingContainer, GrainOnTheWallTurnsWithItAndDoesNotDrift) {
+  const double turns = 10, spin = 0.5;  // centripetal acceleration presses it to the wall
+  TestRun run(scene_of({{0, -9.5, 1, -9.5 * spin, 0, spin}})
+                  .between({drum_wall(10)})
+                  .with(Friction{0.9, 0.9}, Spin{})
+                  .lasting(turns * 2 * std::numbers::pi / spin, 0.05)
+                  .moving("drum", turning(spin)));
+  const Bodies& b = run.bodies();
+  double farthest = 0;
+  run.each_step([&] { farthest = std::max(farthest, std::abs(std::hypot(b.x[0], b.z[0]) - 9.5)); });
+  EXPECT_LT(farthest, 2e-4);
+  EXPECT_NEAR(std::hypot(b.v_x[0], b.v_z[0]), 9.5 * spin, 0.01);
+  EXPECT_NEAR(b.spin[0], spin, 0.01);
 }
 
 TEST(RoughWall, ANumberOfDiscsFitsWholeAroundAContainerAndADisc) {
@@ -140,12 +153,12 @@ TEST(RoughWall, TurnsGrainsWithoutFriction) {
 TEST(RoughWall, ClosesOnItselfInAPeriodicDomain) {
   // A floor of the period's length has its discs at one spacing across the seam too: a disc rests there as
   // anywhere.
-  Scene scene = scene_of({{0.01, 0.9}, {6, 0.9}, {-2.41, 0.9}});
+  TestScene scene = scene_of({{0.01, 0.9}, {6, 0.9}, {-2.41, 0.9}})
+                        .between({floor_wall(6)})
+                        .with(Gravity{})
+                        .lasting(10, 1e-2);
   scene.periodic_x = PeriodicX{-6, 6};
-  scene.walls = {{"floor", SegmentShape{{-6, 0}, {6, 0}}}};
   scene.walls[0].rough = Roughness{1, 1.2};
-  scene.effects.gravity = Gravity{};
-  add_stage(scene, 10, 1e-2);
   const Bodies end = bodies_at_end(scene);
   for (const double z : end.z) EXPECT_NEAR(z, 0.8, 1e-3);
 }

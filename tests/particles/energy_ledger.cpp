@@ -15,27 +15,20 @@ namespace {
 /// anything may have happened yet, but for the rounding of the energy itself.
 EnergyLedger ledger_of(Scene scene) {
   scene.output.energy_ledger = true;
-  Simulation simulation(scene);
-  while (!simulation.finished()) {
-    (void)simulation.step();
-    const EnergyLedger& ledger = *simulation.state().energy;
+  TestRun run(scene);
+  run.each_step([&] {
+    const EnergyLedger& ledger = *run.state().energy;
     const double rounding = 1e-14 * (ledger.kinetic + std::abs(ledger.potential));
-    EXPECT_LE(std::abs(closing_error(ledger)), 1e-10 * ledger.turnover + rounding) << simulation.state().step;
-  }
-  const EnergyLedger& ledger = *simulation.state().energy;
+    EXPECT_LE(std::abs(closing_error(ledger)), 1e-10 * ledger.turnover + rounding) << run.state().step;
+  });
+  const EnergyLedger& ledger = *run.state().energy;
   EXPECT_LE(std::abs(closing_error(ledger)), 1e-10 * ledger.turnover);
   return ledger;
 }
 
-const double mass = mass_of_disc(0.5);
-
 TEST(EnergyLedger, FreeFallTradesPotentialForKineticEnergy) {
-  Scene scene = scene_of({{0, 10}});
-  scene.effects.gravity = Gravity{};
-  const double h = 1e-2, t = 1;
-  add_stage(scene, t, h);
-  const EnergyLedger ledger = ledger_of(scene);
-  EXPECT_NEAR(ledger.kinetic, mass * t * t / 2, 1e-12);
+  const EnergyLedger ledger = ledger_of(scene_of({{0, 10}}).with(Gravity{}).lasting(1, 1e-2));
+  EXPECT_NEAR(ledger.kinetic, weight / 2, 1e-12);
   EXPECT_NEAR(ledger.time_integration, 0, 1e-12);
   EXPECT_EQ(ledger.walls, 0);
   EXPECT_EQ(ledger.friction, 0);
@@ -44,34 +37,19 @@ TEST(EnergyLedger, FreeFallTradesPotentialForKineticEnergy) {
 
 TEST(EnergyLedger, ObliqueImpactSplitsIntoNormalAndTangentialLoss) {
   const double e = 0.5, mu = 0.3, v_n = 1, v_t = 1.5 * 3 * mu * (1 + e) * v_n;
-  Scene scene = scene_of({{0, 0.55, 1, v_t, -v_n}});
-  scene.walls = {floor_wall()};
-  scene.effects.friction = Friction{mu, mu};
-  scene.effects.restitution = Restitution{e, e};
-  scene.effects.spin = Spin{};
-  add_stage(scene, 0.2, 1e-3);
+  Scene scene = scene_of({{0, 0.55, 1, v_t, -v_n}})
+                    .between({floor_wall()})
+                    .with(Friction{mu, mu}, Restitution{e, e}, Spin{})
+                    .lasting(0.2, 1e-3);
   const EnergyLedger ledger = ledger_of(scene);
-  EXPECT_NEAR(ledger.impacts, -(1 - e * e) * mass * v_n * v_n / 2, 1e-9);
+  EXPECT_NEAR(ledger.impacts, -(1 - e * e) * weight * v_n * v_n / 2, 1e-9);
   // Slips all the way: impulse mu (1 + e) m v_n on the mean of the sliding speeds v_t and v_t - 3 impulse/m.
   const double impulse = mu * (1 + e) * v_n;
-  EXPECT_NEAR(ledger.friction, -mass * impulse * (v_t - 1.5 * impulse), 1e-8);
-}
-
-TEST(EnergyLedger, MovingFloorWorksOnABlockUntilItFollows) {
-  // The wall works twice what the block keeps; friction takes the other half.
-  const double mu = 0.25, speed = 0.4, time_s = std::sqrt(1e-3 / 9.81);
-  Scene scene = on_floor({{0, 0.5}});
-  scene.effects.friction = Friction{mu, mu};
-  add_stage(scene, 3, 1e-2);
-  scene.stages[0].motions = {{"floor", Translation{{speed / time_s, 0}}}};
-  const EnergyLedger ledger = ledger_of(scene);
-  EXPECT_NEAR(ledger.walls, mass * speed * speed, 1e-8);
-  EXPECT_NEAR(ledger.friction, -mass * speed * speed / 2, 1e-8);
+  EXPECT_NEAR(ledger.friction, -weight * impulse * (v_t - 1.5 * impulse), 1e-8);
 }
 
 TEST(EnergyLedger, ProjectionIsBookedAsPotentialEnergy) {
-  Scene scene = on_floor({{0, 0.49}, {0, 1.47}});
-  add_stage(scene, 2, 0.05);
+  Scene scene = on_floor({{0, 0.49}, {0, 1.47}}).lasting(2, 0.05);
   const EnergyLedger ledger = ledger_of(scene);
   EXPECT_GT(ledger.projection, 0);
   EXPECT_NEAR(ledger.projection, ledger.potential - ledger.potential_at_start, 1e-6);
@@ -82,16 +60,13 @@ Scene busy_drum() {
   std::vector<Grain> grains;
   for (int k = 0; k < 60; ++k)
     grains.push_back({-3.5 + 1.05 * (k % 8), -2.5 + 1.05 * (k / 8), 0.9 + 0.02 * (k % 5), 0.1 * (k % 3)});
-  Scene scene = scene_of(grains);
-  scene.walls = {{"drum", ContainerShape{{0, 0}, 8}}};
-  scene.effects.gravity = Gravity{};
-  scene.effects.friction = Friction{0.4, 0.9};
-  scene.effects.restitution = Restitution{0.46, 0.46};
-  scene.effects.spin = Spin{};
+  TestScene scene = scene_of(grains)
+                        .between({drum_wall(8)})
+                        .with(Gravity{}, Friction{0.4, 0.9}, Restitution{0.46, 0.46}, Spin{})
+                        .lasting(30, 0.05)
+                        .moving("drum", Rotation{100, {0, 0}});
   scene.solver.tolerance = 1e-2;
   scene.solver.max_sweeps = 30;  // unconverged steps close as well
-  add_stage(scene, 30, 0.05);
-  scene.stages[0].motions = {{"drum", Rotation{100, {0, 0}}}};
   return scene;
 }
 
@@ -111,14 +86,11 @@ TEST(EnergyLedger, ClosesForADrumAndItsTermsHaveTheirSigns) {
 
 TEST(EnergyLedger, DrivenWallWorksByItsMeanVelocity) {
   // A piston of weight 5 falls on three grains.
-  Scene scene = scene_of({{-1.2, 0.5}, {0, 0.5}, {1.2, 0.5}, {0.6, 1.5}});
-  scene.walls = {floor_wall(), {"lid", SegmentShape{{-50, 2.6}, {50, 2.6}}}};
-  scene.effects.gravity = Gravity{};
-  scene.effects.friction = Friction{0.4, 0.4};
-  scene.effects.spin = Spin{};
-  add_stage(scene, 3, 0.02);
-  const double weight = 2700 * 1e-6 * 9.81;  // N per m of depth
-  scene.stages[0].motions = {{"lid", ForceControl{{0, -1}, 5 * weight, 5 * weight / 9.81}}};
+  Scene scene = scene_of({{-1.2, 0.5}, {0, 0.5}, {1.2, 0.5}, {0.6, 1.5}})
+                    .between({floor_wall(), segment("lid", {-50, 2.6}, {50, 2.6})})
+                    .with(Gravity{}, Friction{0.4, 0.4}, Spin{})
+                    .lasting(3, 0.02)
+                    .moving("lid", pushed({0, -1}, 5, 5));
   const EnergyLedger ledger = ledger_of(scene);
   EXPECT_GT(ledger.turnover, 1);
 }

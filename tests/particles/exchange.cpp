@@ -19,11 +19,10 @@ using namespace test;
 namespace {
 
 /// Grains that fall freely, one above the other, into an outlet whose upper edge is at z = 0.
-Scene falling(int count) {
+TestScene falling(int count) {
   std::vector<Grain> grains;
   for (int k = 0; k < count; ++k) grains.push_back({0, 2 + 3.0 * k});
-  Scene scene = scene_of(grains);
-  scene.effects.gravity = Gravity{};
+  TestScene scene = scene_of(grains).with(Gravity{});
   scene.outlets = {{"below", RectangleRegion{{-50, -50}, {50, 0}}}};
   return scene;
 }
@@ -39,26 +38,24 @@ double largest_overlap(const Bodies& bodies) {
 
 TEST(Outlets, TakeEachGrainWhenItFallsIn) {
   const double h = 1e-3;
-  Scene scene = falling(4);
-  add_stage(scene, 5, h);
-  EndedSimulation simulation(scene);
-  const OutletState& outlet = simulation.state().traffic->outlets[0];
+  Scene scene = falling(4).lasting(5, h);
+  EndedRun run(scene);
+  const OutletState& outlet = run.state().traffic->outlets[0];
   ASSERT_EQ(outlet.taken(), 4);
   // Free fall; one step more until it is taken, and the scheme's own error of h t / 2 in the place.
   for (int k = 0; k < 4; ++k) EXPECT_NEAR(outlet.times[k], std::sqrt(2 * (2 + 3.0 * k)), 2 * h) << k;
-  EXPECT_NEAR(outlet.mass, 4 * std::numbers::pi / 4, 1e-12);
-  EXPECT_EQ(simulation.state().bodies.count(), 0u);
+  EXPECT_NEAR(outlet.mass, 4 * weight, 1e-12);
+  EXPECT_EQ(run.bodies().count(), 0u);
 }
 
 TEST(Outlets, EndAStageAfterSoManyGrains) {
-  Scene scene = falling(4);
-  add_stage(scene, 5, 1e-3);
+  Scene scene = falling(4).lasting(5, 1e-3);
   scene.stages[0].until.emplace().out = UntilOut{"below", 2};
   EXPECT_TRUE(validate(scene).empty());
-  EndedSimulation simulation(scene);
-  ASSERT_EQ(simulation.state().ends.size(), 1u);
-  EXPECT_EQ(simulation.state().ends[0].by, EndedBy::outlet);
-  EXPECT_EQ(simulation.state().bodies.id, (std::vector<std::int64_t>{2, 3}));
+  EndedRun run(scene);
+  ASSERT_EQ(run.state().ends.size(), 1u);
+  EXPECT_EQ(run.state().ends[0].by, EndedBy::outlet);
+  EXPECT_EQ(run.bodies().id, (std::vector<std::int64_t>{2, 3}));
   scene.stages[0].until->out->outlet = "above";
   EXPECT_FALSE(validate(scene).empty());
 }
@@ -70,14 +67,14 @@ TEST(Outlets, LeaveImpulsesAndDisplacementsWithTheirGrains) {
   scene.outlets = {{"left", RectangleRegion{{-20, 10}, {-9, 30}}}};
   add_stage(scene, 2, 0.01);
   scene.stages[0].snapshots = 1;
-  scene.output.velocity_window_s = 1.5 * std::sqrt(1e-3 / 9.81);
-  EndedSimulation simulation(scene);
-  const Snapshot snapshot = simulation.take_snapshot();
+  scene.output.velocity_window_s = 1.5 * time_s;
+  EndedRun run(scene);
+  const Snapshot snapshot = run.take_snapshot();
   EXPECT_EQ(snapshot.id, (std::vector<std::int64_t>{1, 2, 3}));
   ASSERT_EQ(snapshot.displacement_x.size(), 3u);
   EXPECT_NEAR(snapshot.displacement_x[2], snapshot.velocity_window, 1e-9);
   EXPECT_NEAR(snapshot.displacement_x[0], 0, 1e-9);
-  const ContactMemory& memory = simulation.state().memory;
+  const ContactMemory& memory = run.state().memory;
   for (std::size_t c = 0; c < memory.i.size(); ++c) EXPECT_LT(memory.i[c], 3);
   write_snapshot(folder.path() / "s.h5", snapshot);
   EXPECT_EQ(read_snapshot(folder.path() / "s.h5").id, snapshot.id);
@@ -88,13 +85,12 @@ TEST(Outlets, ReturnWhatTheyTakeAsNewGrains) {
   scene.outlets[0].returns_to = RectangleRegion{{-2, 20}, {2, 24}};
   scene.outlets[0].return_velocity_mm_s = {0, -100};
   add_stage(scene, 30, 1e-2);
-  Simulation simulation(scene);
-  while (!simulation.finished()) {
-    (void)simulation.step();
-    const auto& state = simulation.state();
+  TestRun run(scene);
+  run.each_step([&] {
+    const auto& state = run.state();
     EXPECT_EQ(state.bodies.count() + state.traffic->outlets[0].waiting.size(), 3u);
-  }
-  const auto& state = simulation.state();
+  });
+  const auto& state = run.state();
   EXPECT_GT(state.traffic->outlets[0].taken(), 6);
   EXPECT_GE(state.bodies.id.front(), 3);
   EXPECT_EQ(state.traffic->next_id, 3 + state.traffic->outlets[0].taken());
@@ -102,27 +98,24 @@ TEST(Outlets, ReturnWhatTheyTakeAsNewGrains) {
 
 TEST(Sources, PourAtTheirRateUpToTheirCountWithoutOverlap) {
   Scene scene = on_floor({{0, 0.5}});
-  const double second = std::sqrt(1e-3 / 9.81);
   Source source{"rain", RectangleRegion{{-20, 30}, {20, 36}}};
-  source.grains_per_s = 10 / second, source.count = 37;
+  source.grains_per_s = 10 / time_s, source.count = 37;
   source.diameter_min_mm = 0.8, source.diameter_max_mm = 1.2, source.velocity_mm_s = {0, -200};
   scene.sources = {source};
   add_stage(scene, 3, 0.01);
   add_stage(scene, 2, 0.01);
-  scene.stages[1].name = "later";
   ASSERT_TRUE(validate(scene).empty());
-  Simulation simulation(scene);
+  TestRun run(scene);
   std::size_t before = 1;
-  while (!simulation.finished()) {
-    (void)simulation.step();
-    const auto& state = simulation.state();
+  run.each_step([&] {
+    const auto& state = run.state();
     const double due = std::floor(10 * (state.time() - 0.01) + 1e-6);
     EXPECT_EQ(state.traffic->poured[0], std::min(37.0, due)) << state.step;
     if (state.bodies.count() > before) {
       EXPECT_LT(largest_overlap(state.bodies), 1e-3);
     }
     before = state.bodies.count();
-  }
+  });
   EXPECT_EQ(before, 38u);
 }
 
@@ -130,20 +123,18 @@ TEST(Sources, WaitForRoomAndCountWhatWaits) {
   // A disc of diameter 1 lies in the middle of a box of 2 x 2: there is no room for another of diameter 1.2.
   Scene scene = scene_of({{0, 0, 1}});
   Source source{"full", RectangleRegion{{-1, -1}, {1, 1}}};
-  source.grains_per_s = 1 / std::sqrt(1e-3 / 9.81);
+  source.grains_per_s = 1 / time_s;
   source.diameter_min_mm = source.diameter_max_mm = 1.2;
   scene.sources = {source};
   add_stage(scene, 5.5, 0.1);
-  EndedSimulation simulation(scene);
-  const auto& state = simulation.state();
+  EndedRun run(scene);
+  const auto& state = run.state();
   EXPECT_EQ(state.bodies.count(), 1u);
-  EXPECT_EQ(waiting(scene.sources[0], state.traffic->poured[0], state.time() * simulation.scales().time_s),
-            5);
+  EXPECT_EQ(waiting(scene.sources[0], state.traffic->poured[0], state.time() * run.scales().time_s), 5);
 }
 
 TEST(Sources, AreRefusedWhereAnOutletTakesGrainsOrDiscsHaveNoRoom) {
-  Scene scene = falling(1);
-  add_stage(scene, 1, 0.01);
+  Scene scene = falling(1).lasting(1, 0.01);
   Source source{"rain", RectangleRegion{{-5, -5}, {5, 5}}};
   source.grains_per_s = 1, source.diameter_min_mm = 1, source.diameter_max_mm = 2;
   scene.sources = {source};
@@ -188,23 +179,20 @@ TEST(SameGrains, AreMatchedByIdentity) {
 
 TEST(LeftGrains, AreCountedOnceInTheirStage) {
   const TemporaryFolder folder;
-  Scene scene = scene_of({{0, 1}, {10, 1, 1, 100, 0}});
-  scene.walls = {floor_wall(20)};
-  add_stage(scene, 1, 0.01);
-  add_stage(scene, 1, 0.01);
-  scene.stages[1].name = "later";
-  Simulation simulation(scene);
-  EXPECT_FALSE(simulation.state().left);
-  while (!simulation.finished()) (void)simulation.step();
+  Scene scene =
+      scene_of({{0, 1}, {10, 1, 1, 100, 0}}).between({floor_wall(20)}).lasting(1, 0.01).lasting(1, 0.01);
+  TestRun run(scene);
+  EXPECT_FALSE(run.state().left);
+  run.to_end();
   // It passes x = 20 + 100 at t = 1.1.
-  ASSERT_TRUE(simulation.state().left);
-  const LeftGrains& left = *simulation.state().left;
+  ASSERT_TRUE(run.state().left);
+  const LeftGrains& left = *run.state().left;
   EXPECT_EQ(left.per_stage, (std::vector<std::int64_t>{0, 1}));
   ASSERT_EQ(left.first.size(), 1u);
   EXPECT_EQ(left.first[0].grain, 1);
   EXPECT_NEAR(left.first[0].time, 1.1, 0.011);
   Checkpoint checkpoint;
-  checkpoint.state = simulation.state();
+  checkpoint.state = run.state();
   write_checkpoint(folder.path() / "c.h5", checkpoint);
   const auto read = read_checkpoint(folder.path() / "c.h5").state.left;
   ASSERT_TRUE(read);
@@ -225,10 +213,10 @@ TEST(Groups, OfTheirOwnDensityCollideByTheirMasses) {
   scene.stages[0].snapshots = 1;
   scene.output.velocity_window_s = 0;
   for (const SceneFault& fault : validate(scene)) ADD_FAILURE() << fault.key << ' ' << fault.what;
-  EndedSimulation simulation(scene);
-  EXPECT_NEAR(simulation.state().bodies.v_x[0], -0.6, 1e-6);
-  EXPECT_NEAR(simulation.state().bodies.v_x[1], 0.4, 1e-6);
-  const Snapshot snapshot = simulation.take_snapshot();
+  EndedRun run(scene);
+  EXPECT_NEAR(run.bodies().v_x[0], -0.6, 1e-6);
+  EXPECT_NEAR(run.bodies().v_x[1], 0.4, 1e-6);
+  const Snapshot snapshot = run.take_snapshot();
   ASSERT_EQ(snapshot.mass.size(), 2u);
   EXPECT_NEAR(snapshot.mass[1] / snapshot.mass[0], 4, 1e-12);
   EXPECT_TRUE(snapshot.id.empty());
@@ -239,10 +227,7 @@ TEST(Groups, OfTheirOwnDensityCollideByTheirMasses) {
 }
 
 TEST(Groups, LeaveTheMainSourceAsItIsAndMustNotOverlapIt) {
-  Scene scene;
-  scene.grains.density_kg_m3 = 2700;
-  scene.grains.source = GeneratedGrains{40, 1, 1.2, RectangleRegion{{0, 0}, {10, 10}}};
-  add_stage(scene, 1, 0.01);
+  Scene scene = scene_of(GeneratedGrains{40, 1, 1.2, RectangleRegion{{0, 0}, {10, 10}}}).lasting(1, 0.01);
   const Bodies alone = Simulation(scene).state().bodies;
   GrainGroup group;
   group.name = "rain";
@@ -253,12 +238,7 @@ TEST(Groups, LeaveTheMainSourceAsItIsAndMustNotOverlapIt) {
   EXPECT_TRUE(std::equal(alone.x.begin(), alone.x.end(), both.x.begin()));
   EXPECT_TRUE(std::equal(alone.z.begin(), alone.z.end(), both.z.begin()));
   scene.grains.groups[0].source = GeneratedGrains{20, 0.5, 0.6, RectangleRegion{{0, 2}, {10, 6}}};
-  try {
-    (void)Simulation(scene);
-    FAIL() << "overlapping groups were placed";
-  } catch (const InputError& error) {
-    expect_has(error.what(), "\"rain\"");
-  }
+  expect_has(message_of<InputError>([&] { (void)Simulation(scene); }), "\"rain\"");
 }
 
 }  // namespace

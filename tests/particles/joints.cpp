@@ -81,20 +81,19 @@ FastDiscs fast_discs_at(double angle, double e) {
   for (int k = 0; k < 80; ++k) {
     const double down = 0.05 + 0.18 * (k % 8), x = -1 + 0.2 * (k / 8);
     const Point u{std::cos(down), -std::sin(down)};
-    Scene scene = test::scene_of({{x - 2.1 * u.x, 0.6 - 2.1 * u.z, 1, speed * u.x, speed * u.z}});
-    scene.walls = {{"wall", SegmentShape{{-far, 0}, {0, 0}}}, {"wall", SegmentShape{{0, 0}, {end.x, end.z}}}};
-    scene.effects.gravity = Gravity{};
-    if (e > 0) scene.effects.restitution = Restitution{e, e};
-    test::add_stage(scene, 20 * step, step);
-    Simulation simulation(scene);
-    while (!simulation.finished()) {
-      const StepReport report = simulation.step();
-      const Bodies& b = simulation.state().bodies;
+    test::TestScene scene = test::scene_of({{x - 2.1 * u.x, 0.6 - 2.1 * u.z, 1, speed * u.x, speed * u.z}})
+                                .between({test::segment("wall", {-far, 0}, {0, 0}),
+                                          test::segment("wall", {0, 0}, {end.x, end.z})})
+                                .with(Gravity{})
+                                .lasting(20 * step, step);
+    test::TestRun run(e > 0 ? scene.with(Restitution{e, e}) : scene);
+    run.each_step([&](const StepReport& report) {
+      const Bodies& b = run.bodies();
       for (const Segment& wall : {Segment{{-far, 0}, {0, 0}}, Segment{{0, 0}, end}})
         all.deepest = std::max(all.deepest, -touch(wall, b.x[0], b.z[0]).gap);
       all.largest_overlap = std::max(all.largest_overlap, report.overlap.max);
       all.unknown_sinkings += std::isnan(report.solve.residual.sinking);
-    }
+    });
   }
   return all;
 }

@@ -11,6 +11,7 @@
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/scene/placement.hpp"
 #include "particles/scene/random.hpp"
+#include "tests/support/expect_bodies.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace drumlin {
@@ -20,11 +21,9 @@ namespace {
 
 /// A small drum with every effect.
 Scene small_drum(int grains = 120) {
-  Scene scene;
-  scene.grains.density_kg_m3 = 2700;
-  scene.grains.source = GeneratedGrains{grains, 3, 3.6, CircleRegion{{0, 0}, 30}};
-  scene.walls = {{"drum", ContainerShape{{0, 0}, 30}}};
-  scene.effects = {Gravity{}, Friction{0.4, 0.95}, Restitution{0.46, 0.46}, Spin{}};
+  TestScene scene = scene_of(GeneratedGrains{grains, 3, 3.6, CircleRegion{{0, 0}, 30}})
+                        .between({drum_wall(30)})
+                        .with(Gravity{}, Friction{0.4, 0.95}, Restitution{0.46, 0.46}, Spin{});
   Stage settle, turn;
   settle.name = "settle", settle.duration_s = 0.2, settle.time_step_s = 1e-3;
   turn.name = "turn", turn.duration_s = 0.4, turn.time_step_s = 1e-3, turn.snapshots = 4;
@@ -34,13 +33,13 @@ Scene small_drum(int grains = 120) {
 }
 
 TEST(Drum, NothingLeavesAndOverlapStaysSmall) {
-  Simulation simulation(small_drum());
+  TestRun run(small_drum());
   const double radius = 30 / 3.3;
-  while (!simulation.finished()) {
-    const StepReport report = simulation.step();
+  while (!run.finished()) {
+    const StepReport report = run.step();
     // Before positions are corrected. In one step in which discs land after an impact: 1.33e-3.
     ASSERT_LT(report.overlap.mean, 1.4e-3);
-    const Bodies& b = simulation.state().bodies;
+    const Bodies& b = run.bodies();
     for (std::size_t k = 0; k < b.count(); ++k)
       ASSERT_LT(std::hypot(b.x[k], b.z[k]) + b.radius[k], radius + 0.02);
   }
@@ -50,11 +49,9 @@ TEST(Drum, SettlesToRest) {
   Scene scene = small_drum();
   scene.stages.pop_back();
   scene.stages[0].duration_s = 1.0;
-  EndedSimulation simulation(scene);
-  const Bodies& b = simulation.state().bodies;
-  double mass = 0;
-  for (const double w : b.inverse_mass) mass += 1 / w;
-  EXPECT_LT(std::sqrt(2 * kinetic_energy(b) / mass), 1e-2);
+  EndedRun run(scene);
+  const Bodies& b = run.bodies();
+  EXPECT_LT(std::sqrt(2 * kinetic_energy(b) / total_mass(b)), 1e-2);
 }
 
 TEST(Restart, KeepsTheDisplacementWindowThatItFellInto) {
@@ -104,30 +101,6 @@ TEST(Restart, GoesOnTheSameFromContactsInTheOrderOfASolve) {
   EXPECT_EQ(second.state().memory.impulse, first.state().memory.impulse);
   for (int k = 0; k < 5; ++k) (void)first.step(), (void)second.step();
   expect_same(first.state().bodies, second.state().bodies);
-}
-
-TEST(Effects, AbsentOnesCostNoUnknownAndNoState) {
-  Scene scene = small_drum();
-  EXPECT_EQ(Simulation(scene).stepper().unknowns_per_contact(), 2);
-  EXPECT_EQ(Simulation(scene).stepper().velocities_per_body(), 3);
-  scene.effects.spin.reset();
-  EXPECT_EQ(Simulation(scene).stepper().unknowns_per_contact(), 2);
-  EXPECT_EQ(Simulation(scene).stepper().velocities_per_body(), 2);
-  EXPECT_TRUE(Simulation(scene).state().bodies.spin.empty());
-  scene.effects.friction.reset();
-  scene.effects.restitution.reset();
-  Simulation plain(scene);
-  EXPECT_EQ(plain.stepper().unknowns_per_contact(), 1);
-  (void)plain.step();
-  EXPECT_EQ(plain.state().memory.impulse.size(), plain.state().memory.i.size());
-  EXPECT_TRUE(plain.state().bodies.id.empty());
-  EXPECT_FALSE(plain.state().traffic);
-  EXPECT_FALSE(plain.state().left);
-  EXPECT_FALSE(plain.state().cell);
-  EXPECT_FALSE(plain.state().energy);
-  EXPECT_FALSE(plain.take_snapshot().cell);
-  EXPECT_TRUE(plain.take_snapshot().id.empty());
-  EXPECT_TRUE(plain.take_snapshot().mass.empty());
 }
 
 TEST(Random, StreamsAreFixedForeverAndApart) {

@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "particles/stepping/simulation.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace drumlin {
 using namespace particles;
@@ -87,20 +87,15 @@ TEST(WorkMemory, NothingIsTakenOutsideOfAFrame) {
 /// Bytes per contact: those that stay from step to step, and those that its phases share.
 TEST(WorkMemory, AStepTakesSoMuchPerContact) {
   constexpr int grains = 3000;
-  Scene scene;
-  scene.grains.density_kg_m3 = 2700;
   GeneratedGrains made{grains, 3, 3.6, CircleRegion{{0, 0}, 146}};
   made.placement = Placement::deposited;
-  scene.grains.source = made;
-  scene.walls = {{"drum", ContainerShape{{0, 0}, 146}}};
-  scene.effects = {Gravity{}, Friction{0.4, 0.95}, Restitution{0.46, 0.46}, Spin{}};
-  Stage turn;
-  turn.name = "turn", turn.duration_s = 0.06, turn.time_step_s = 1e-3;
-  turn.motions = {{"drum", Rotation{6, {0, 0}}}};
-  scene.stages = {turn};
-  Simulation simulation(scene);
+  test::TestRun simulation(test::scene_of(made)
+                               .between({test::drum_wall(146)})
+                               .with(Gravity{}, Friction{0.4, 0.95}, Restitution{0.46, 0.46}, Spin{})
+                               .lasting(0.06 / test::time_s, 1e-3 / test::time_s)
+                               .moving("drum", Rotation{6, {0, 0}}));
   std::int64_t contacts = 0;
-  while (!simulation.finished()) contacts = std::max(contacts, simulation.step().contacts);
+  simulation.each_step([&](const StepReport& report) { contacts = std::max(contacts, report.contacts); });
   const StepMemory memory = simulation.stepper().memory();
   EXPECT_GT(contacts, 1.9 * grains);
   EXPECT_LT(static_cast<double>(memory.kept), 400.0 * contacts);

@@ -8,19 +8,24 @@
 
 #include "particles/scene/random.hpp"
 #include "tests/hardcases/particles/case_lists.hpp"
-#include "tests/hardcases/particles/trial.hpp"
+#include "tests/hardcases/particles/watch.hpp"
 
 namespace drumlin {
-using namespace particles;
+using namespace test;
 namespace {
 
 constexpr double rounding = 1e-9;  // of the energy; residual 1e-12
 
-Trial strict() {
-  Trial trial;
-  trial.scene.solver.tolerance = 1e-12;
-  trial.scene.solver.check_every = 1;
+TestScene strictly(TestScene trial) {
+  trial.solver.tolerance = 1e-12;
+  trial.solver.check_every = 1;
   return trial;
+}
+
+/// Of the kinetic energy, relative to its beginning.
+double gain_of(const Scene& scene) {
+  TestRun run(scene);
+  return run_watched(run).gain;
 }
 
 /// Two discs that meet at random, free, with any restitution and friction.
@@ -28,22 +33,17 @@ std::vector<HardCheck> single_contact() {
   RandomStream random(1, "hard/single-contact");
   double worst = -1;
   for (int k = 0; k < 200; ++k) {
-    Trial trial = strict();
     const double mu = k % 4 == 0 ? 10 : random.uniform(0, 1), e = k % 5 == 0 ? 1 : random.uniform(0, 1);
     const double angle = random.uniform(0, 6.28), diameter = random.uniform(0.2, 2);
     const double distance = (1 + diameter) / 2 + random.uniform(0, 0.1);
-    trial.discs = {{0, 0, 1, 0, 0, random.uniform(-5, 5)},
-                   {distance * std::cos(angle), distance * std::sin(angle), diameter,
-                    -3 * std::cos(angle) + random.uniform(-2, 2),
-                    -3 * std::sin(angle) + random.uniform(-2, 2), random.uniform(-5, 5)}};
-    trial.scene.effects.friction = Friction{mu, mu};
-    trial.scene.effects.restitution = Restitution{e, e};
-    trial.scene.effects.spin = Spin{};
-    trial.add_stage(1, 0.0545);
-    Simulation simulation = trial.start();
-    const double before = kinetic_energy(simulation.state().bodies);
-    run_watched(simulation);
-    worst = larger(worst, kinetic_energy(simulation.state().bodies) / before - 1);
+    const std::vector<Grain> discs{{0, 0, 1, 0, 0, random.uniform(-5, 5)},
+                                   {distance * std::cos(angle), distance * std::sin(angle), diameter,
+                                    -3 * std::cos(angle) + random.uniform(-2, 2),
+                                    -3 * std::sin(angle) + random.uniform(-2, 2), random.uniform(-5, 5)}};
+    worst = larger(
+        worst,
+        gain_of(
+            strictly(scene_of(discs)).with(Friction{mu, mu}, Restitution{e, e}, Spin{}).lasting(1, 0.0545)));
   }
   return {at_most("largest relative gain, 200 pairs", rounding, worst, "residual 1e-12")};
 }
@@ -51,16 +51,10 @@ std::vector<HardCheck> single_contact() {
 /// Gain of energy of three discs in a row over gaps of the third, relative to the start.
 double row_gain(double e) {
   double worst = -1;
-  for (int k = 0; k <= 40; ++k) {
-    Trial trial = strict();
-    trial.discs = {{-1.02, 0, 1, 6}, {0, 0}, {1 + 0.02 * k, 0}};
-    trial.scene.effects.restitution = Restitution{e, e};
-    trial.add_stage(0.6, 0.0545);
-    Simulation simulation = trial.start();
-    const double before = kinetic_energy(simulation.state().bodies);
-    run_watched(simulation);
-    worst = larger(worst, kinetic_energy(simulation.state().bodies) / before - 1);
-  }
+  for (int k = 0; k <= 40; ++k)
+    worst = larger(worst, gain_of(strictly(scene_of({{-1.02, 0, 1, 6}, {0, 0}, {1 + 0.02 * k, 0}}))
+                                      .with(Restitution{e, e})
+                                      .lasting(0.6, 0.0545)));
   return worst;
 }
 
@@ -72,34 +66,32 @@ std::vector<HardCheck> three_in_a_row(std::initializer_list<double> restitutions
   return checks;
 }
 
-/// Free discs of two sizes in a box, thrown at random.
-Trial gas(double e, double h, double duration) {
-  Trial trial = strict();
+/// Free discs of two sizes in a box, thrown at random; they may roll.
+TestScene gas(double e, double duration, bool spin = false) {
+  std::vector<Grain> discs;
   RandomStream random(2, "hard/gas");
   for (int i = 0; i < 8; ++i)
-    for (int k = 0; k < 8; ++k)
-      trial.discs.push_back({1.2 * i - 4.2 + random.uniform(-0.05, 0.05),
-                             1.2 * k - 4.2 + random.uniform(-0.05, 0.05), (i + k) % 2 ? 1.1 : 0.9,
-                             random.uniform(-2, 2), random.uniform(-2, 2)});
-  trial.scene.walls = trial_box(5);
-  trial.scene.effects.restitution = Restitution{e, e};
-  trial.add_stage(duration, h);
-  return trial;
+    for (int k = 0; k < 8; ++k) {
+      const double x = 1.2 * i - 4.2 + random.uniform(-0.05, 0.05),
+                   z = 1.2 * k - 4.2 + random.uniform(-0.05, 0.05), v_x = random.uniform(-2, 2),
+                   v_z = random.uniform(-2, 2);
+      discs.push_back({x, z, (i + k) % 2 ? 1.1 : 0.9, v_x, v_z, spin ? v_x - v_z : 0});
+    }
+  return strictly(scene_of(discs)).between(box_walls(5)).with(Restitution{e, e}).lasting(duration, 0.0545);
 }
 
 std::vector<HardCheck> gas_energy() {
   std::vector<HardCheck> checks;
   for (const double e : {0.46, 0.9, 1.0}) {
-    Simulation simulation = gas(e, 0.0545, 20).start();
-    const double before = kinetic_energy(simulation.state().bodies);
-    const Watch watch = run_watched(simulation);
+    TestRun run(gas(e, 20));
+    const double before = run.kinetic();
+    const Watch watch = run_watched(run);
     const std::string suffix = ", e = " + std::to_string(e).substr(0, 4);
     checks.push_back(at_most("largest relative rise in a step" + suffix, rounding,
                              watch.largest_rise / before, "residual 1e-12"));
     checks.push_back(at_most("overlap" + suffix, 1e-2, watch.largest_overlap, "dense, at 2 sqrt(g d)"));
     if (e == 1)
-      checks.push_back(equals("energy at the end / at the start" + suffix, 1,
-                              kinetic_energy(simulation.state().bodies) / before, 1e-6,
+      checks.push_back(equals("energy at the end / at the start" + suffix, 1, run.kinetic() / before, 1e-6,
                               "elastic: all of it is kept but what 2000 impacts round off"));
   }
   return checks;
@@ -112,30 +104,20 @@ std::vector<HardCheck> rough_gas_energy() {
   for (const double e : {0.0, 0.46, 0.9, 1.0})
     for (const double e_wall : {e, 0.2, 1.0})
       for (const double mu : {0.0, 0.4, 10.0}) {
-        Trial trial = gas(e, 0.0545, 10);
-        trial.scene.effects.restitution = Restitution{e, e_wall};
-        trial.scene.effects.friction = Friction{mu, mu};
-        trial.scene.effects.spin = Spin{};
-        for (TrialDisc& disc : trial.discs) disc.spin = disc.v_x - disc.v_z;
-        Simulation simulation = trial.start();
-        while (!simulation.finished()) {
-          const double before = kinetic_energy(simulation.state().bodies);
-          (void)simulation.step();
-          worst = larger(worst, kinetic_energy(simulation.state().bodies) / before - 1);
-        }
+        TestRun run(gas(e, 10, true).with(Restitution{e, e_wall}, Friction{mu, mu}, Spin{}));
+        worst = larger(worst, run_watched(run).largest_gain);
       }
   return {at_most("largest relative rise in a step, 36 gases", 1e-10, worst, "residual 1e-12")};
 }
 
 /// A periodic gas of 900 equal discs between two elastic walls, at temperature 1 (of m v_x^2), which is one
 /// of the area fraction `fraction` for the centres.
-Trial dilute_gas(const std::vector<TrialDisc>& discs, double side, double e) {
-  Trial trial = strict();
-  trial.discs = discs;
-  trial.scene.walls = {trial_segment("floor", -side, 0, 2 * side, 0),
-                       trial_segment("top", -side, side + 1, 2 * side, side + 1)};
-  trial.scene.periodic_x = PeriodicX{0, side};
-  trial.scene.effects.restitution = Restitution{e, 1};
+TestScene dilute_gas(const std::vector<Grain>& discs, double side, double e) {
+  TestScene trial = strictly(scene_of(discs))
+                        .between({segment("floor", {-side, 0}, {2 * side, 0}),
+                                  segment("top", {-side, side + 1}, {2 * side, side + 1})})
+                        .with(Restitution{e, 1});
+  trial.periodic_x = PeriodicX{0, side};
   return trial;
 }
 
@@ -144,9 +126,9 @@ double side_of_gas(double fraction) {
   return std::sqrt(gas_side * gas_side * std::numbers::pi / 4 / fraction);
 }
 
-std::vector<TrialDisc> thrown_discs(double side) {
+std::vector<Grain> thrown_discs(double side) {
   RandomStream random(3, "hard/dilute-gas");
-  std::vector<TrialDisc> discs;
+  std::vector<Grain> discs;
   double sum = 0;
   for (int i = 0; i < gas_side; ++i)
     for (int k = 0; k < gas_side; ++k) {
@@ -156,27 +138,19 @@ std::vector<TrialDisc> thrown_discs(double side) {
       sum += size * size;
     }
   const double unit = std::sqrt(2 * gas_side * gas_side / sum);
-  for (TrialDisc& disc : discs) disc.v_x *= unit, disc.v_z *= unit;
+  for (Grain& disc : discs) disc.v_x *= unit, disc.v_z *= unit;
   return discs;
 }
 
 std::vector<HardCheck> elastic_gas() {
   const double side = side_of_gas(0.3);
-  Trial trial = dilute_gas(thrown_discs(side), side, 1);
-  trial.add_stage(440, 0.05);
-  Simulation simulation = trial.start();
-  const double before = kinetic_energy(simulation.state().bodies);
-  double impacts = 0, rise = 0;
-  while (!simulation.finished()) {
-    const double now = kinetic_energy(simulation.state().bodies);
-    impacts += simulation.step().impacts;
-    rise = larger(rise, kinetic_energy(simulation.state().bodies) / now - 1);
-  }
-  return {at_least("impacts per disc", 1000, 2 * impacts / (gas_side * gas_side),
+  TestRun run(dilute_gas(thrown_discs(side), side, 1).lasting(440, 0.05));
+  const Watch watch = run_watched(run);
+  return {at_least("impacts per disc", 1000, 2.0 * watch.impacts / (gas_side * gas_side),
                    "2.4 per unit of time (Enskog)"),
-          equals("energy at the end / at the start", 1, kinetic_energy(simulation.state().bodies) / before,
-                 0.01, "elastic; the issue is what 450,000 impacts leave"),
-          at_most("largest relative rise in a step", 1e-10, rise, "residual 1e-12")};
+          equals("energy at the end / at the start", 1, 1 + watch.gain, 0.01,
+                 "elastic; the issue is what 450,000 impacts leave"),
+          at_most("largest relative rise in a step", 1e-10, watch.largest_gain, "residual 1e-12")};
 }
 
 /// Haff's law (1983), and what velocities that collisions align take from it: sqrt(T(0)/T(t)) = 1 + t/tau
@@ -187,26 +161,21 @@ std::vector<HardCheck> haff() {
   const double n = fraction * 4 / std::numbers::pi;
   const double chi = (1 - 7 * fraction / 16) / ((1 - fraction) * (1 - fraction));
   const double tau = 4 / ((1 - e * e) * 2 * n * chi * std::sqrt(std::numbers::pi));
-  Trial mixing = dilute_gas(thrown_discs(side), side, 1);
-  mixing.add_stage(20, h);
-  const Bodies mixed = end_of(mixing);
-  std::vector<TrialDisc> discs;
+  const Bodies mixed = bodies_at_end(dilute_gas(thrown_discs(side), side, 1).lasting(20, h));
+  std::vector<Grain> discs;
   for (std::size_t k = 0; k < mixed.count(); ++k)
     discs.push_back({mixed.x[k], mixed.z[k], 1, mixed.v_x[k], mixed.v_z[k]});
-  Trial cooling = dilute_gas(discs, side, e);
-  cooling.add_stage(3 * tau, h);
-  Simulation simulation = cooling.start();
-  const double before = kinetic_energy(simulation.state().bodies);
+  TestRun run(dilute_gas(discs, side, e).lasting(3 * tau, h));
+  const double before = run.kinetic();
   std::vector<HardCheck> checks;
   // Of Haff's law: an event-driven simulation of the same hard discs, mean of 12 starts, each 0.004. One run
   // differs from that by 0.014 to 0.022.
   const std::array<double, 3> event_driven{0.988, 0.978, 0.974};
   for (const int times : {1, 2, 3}) {
-    while (!simulation.finished() && simulation.state().time() < times * tau) (void)simulation.step();
+    while (!run.finished() && run.state().time() < times * tau) (void)run.step();
     checks.push_back(equals("sqrt(T(0)/T) - 1 after " + std::to_string(times) + " tau",
-                            times * event_driven[times - 1],
-                            std::sqrt(before / kinetic_energy(simulation.state().bodies)) - 1, 0.03 * times,
-                            "event-driven discs of the same number; 3 %: chance of 900 discs"));
+                            times * event_driven[times - 1], std::sqrt(before / run.kinetic()) - 1,
+                            0.03 * times, "event-driven discs of the same number; 3 %: chance of 900 discs"));
   }
   return checks;
 }

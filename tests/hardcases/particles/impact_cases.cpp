@@ -7,29 +7,26 @@
 #include <string>
 
 #include "tests/hardcases/particles/case_lists.hpp"
-#include "tests/hardcases/particles/trial.hpp"
+#include "tests/hardcases/particles/watch.hpp"
 
 namespace drumlin {
-using namespace particles;
+using namespace test;
 namespace {
 
-Trial drop(double height, double e, double duration, double h) {
-  Trial trial;
-  trial.discs = {{0, 0.5 + height}};
-  trial.scene.walls = {trial_floor()};
-  trial.scene.effects.gravity = Gravity{};
-  trial.scene.effects.restitution = Restitution{e, e};
-  trial.add_stage(duration, h);
-  return trial;
+TestScene drop(double height, double e, double duration, double h) {
+  return scene_of({{0, 0.5 + height}})
+      .between({floor_wall()})
+      .with(Gravity{}, Restitution{e, e})
+      .lasting(duration, h);
 }
 
 std::vector<HardCheck> drop_peaks() {
   const double e = 0.6, height = 4, h = 2e-4;
-  Simulation simulation = drop(height, e, 14, h).start();
+  TestRun run(drop(height, e, 14, h));
   std::vector<double> peaks;
   double before = height, now = height;
-  run_watched(simulation, [&](const Simulation& s) {
-    const double z = s.state().bodies.z[0] - 0.5;
+  run_watched(run, [&] {
+    const double z = run.bodies().z[0] - 0.5;
     if (now > before && now > z) peaks.push_back(now);
     before = now, now = z;
   });
@@ -42,13 +39,10 @@ std::vector<HardCheck> drop_peaks() {
   return checks;
 }
 
-Trial row(const std::vector<TrialDisc>& discs, double e, double duration, double h) {
-  Trial trial;
-  trial.discs = discs;
-  trial.scene.effects.restitution = Restitution{e, e};
-  trial.scene.solver.tolerance = 1e-12;
-  trial.scene.solver.check_every = 1;
-  trial.add_stage(duration, h);
+TestScene row(const std::vector<Grain>& discs, double e, double duration, double h) {
+  TestScene trial = scene_of(discs).with(Restitution{e, e}).lasting(duration, h);
+  trial.solver.tolerance = 1e-12;
+  trial.solver.check_every = 1;
   return trial;
 }
 
@@ -57,17 +51,17 @@ Trial row(const std::vector<TrialDisc>& discs, double e, double duration, double
 std::vector<HardCheck> cradle_of_five() {
   std::vector<HardCheck> checks;
   for (const double e : {1.0, 0.9, 0.4}) {
-    std::vector<TrialDisc> discs{{-1.3, 0, 1, 1}};
+    std::vector<Grain> discs{{-1.3, 0, 1, 1}};
     for (int k = 0; k < 4; ++k) discs.push_back({1.001 * k, 0});
     const std::string suffix = ", e = " + std::to_string(e).substr(0, 3);
-    const Bodies end = end_of(row(discs, e, 0.4, 1e-3));
+    const Bodies end = bodies_at_end(row(discs, e, 0.4, 1e-3));
     checks.push_back(equals("last disc" + suffix, std::pow((1 + e) / 2, 4), end.v_x[4], 1e-10,
                             "each impact passes on (1 + e)/2; residual 1e-12"));
     double momentum = 0;
     for (const double v : end.v_x) momentum += v;
     checks.push_back(equals("momentum" + suffix, 1, momentum, 1e-12, "rounding"));
     for (std::size_t k = 1; k < discs.size(); ++k) discs[k].x = static_cast<double>(k) - 1;
-    const Bodies touching = end_of(row(discs, e, 0.4, 1e-3));
+    const Bodies touching = bodies_at_end(row(discs, e, 0.4, 1e-3));
     checks.push_back(equals("striker on four that touch" + suffix, (1 - 4 * e) / 5, touching.v_x[0], 1e-8,
                             "Newton's law for impacts at once"));
     for (int k = 1; k <= 4; ++k)
@@ -80,10 +74,9 @@ std::vector<HardCheck> cradle_of_five() {
 /// Impacts on grains that others are near, and do not touch.
 std::vector<HardCheck> near_misses() {
   const double h = 0.0313, speed = 3.2;  // of 10 mm: 1e-3 s, 1 m/s
-  const Bodies row_end = end_of(row({{0, 0, 1, speed}, {1.01, 0}, {2.02, 0}}, 1, 6 * h, h));
-  Trial passing = row({{0.51, 0, 1, -speed}, {1.53, -0.15, 1, 0, 3 * speed}}, 0, 2 * h, h);
-  passing.scene.walls = {trial_segment("left", 0, -9, 0, 9)};
-  const Bodies end = end_of(passing);
+  const Bodies row_end = bodies_at_end(row({{0, 0, 1, speed}, {1.01, 0}, {2.02, 0}}, 1, 6 * h, h));
+  const Bodies end = bodies_at_end(row({{0.51, 0, 1, -speed}, {1.53, -0.15, 1, 0, 3 * speed}}, 0, 2 * h, h)
+                                       .between({segment("left", {0, -9}, {0, 9})}));
   const std::string why = "each impact is of two bodies; rounding";
   return {equals("first of a row with gaps of 0.01 d, e = 1", 0, row_end.v_x[0], 1e-9, why),
           equals("second", 0, row_end.v_x[1], 1e-9, why),
@@ -95,14 +88,10 @@ std::vector<HardCheck> near_misses() {
 
 /// Velocities after a disc without spin has met a floor, without gravity.
 Bodies oblique_impact(double v_t, double v_n, double mu, double e) {
-  Trial trial;
-  trial.discs = {{0, 0.55, 1, v_t, -v_n}};
-  trial.scene.walls = {trial_floor()};
-  trial.scene.effects.friction = Friction{mu, mu};
-  trial.scene.effects.restitution = Restitution{e, e};
-  trial.scene.effects.spin = Spin{};
-  trial.add_stage(0.2, 1e-3);
-  return end_of(trial);
+  return bodies_at_end(scene_of({{0, 0.55, 1, v_t, -v_n}})
+                           .between({floor_wall()})
+                           .with(Friction{mu, mu}, Restitution{e, e}, Spin{})
+                           .lasting(0.2, 1e-3));
 }
 
 std::vector<HardCheck> oblique() {
@@ -117,36 +106,32 @@ std::vector<HardCheck> oblique() {
 }
 
 std::vector<HardCheck> billiard() {
-  Trial trial = row({{0.3, 0, 1, 1}}, 1, 30500, 0.1);
-  trial.scene.walls = {trial_segment("left", -2, -5, -2, 5), trial_segment("right", 2, -5, 2, 5)};
-  trial.scene.solver.tolerance = 1e-14;
-  Simulation simulation = trial.start();
-  const double before = kinetic_energy(simulation.state().bodies);
+  TestScene trial = row({{0.3, 0, 1, 1}}, 1, 30500, 0.1)
+                        .between({segment("left", {-2, -5}, {-2, 5}), segment("right", {2, -5}, {2, 5})});
+  trial.solver.tolerance = 1e-14;
+  TestRun run(trial);
   double velocity = 1;
   int impacts = 0;
-  run_watched(simulation, [&](const Simulation& s) {
-    const double now = s.state().bodies.v_x[0];
+  const Watch watch = run_watched(run, [&] {
+    const double now = run.bodies().v_x[0];
     impacts += now * velocity < 0;
     velocity = now;
   });
   return {at_least("impacts", 10000, impacts, "a way of 3 d each, at speed 1 for 30500"),
-          equals("energy at the end / at the start", 1, kinetic_energy(simulation.state().bodies) / before,
-                 1e-12, "rounding of 1e4 impacts")};
+          equals("energy at the end / at the start", 1, 1 + watch.gain, 1e-12, "rounding of 1e4 impacts")};
 }
 
 std::vector<HardCheck> shot() {
   const double speed = 100, e = 0.5, radius = 20;
-  Trial trial;
-  trial.discs = {{0, 0, 1, 60, -80}};
-  trial.scene.walls = {trial_container(radius)};
-  trial.scene.effects.restitution = Restitution{e, e};
-  trial.add_stage(0.35, 0.0545);  // 5.45 d per step; one impact
-  Simulation simulation = trial.start();
+  TestScene trial = scene_of({{0, 0, 1, 60, -80}})
+                        .between({drum_wall(radius)})
+                        .with(Restitution{e, e})
+                        .lasting(0.35, 0.0545);  // 5.45 d per step; one impact
+  TestRun run(trial);
   double farthest = 0;
-  const Watch watch = run_watched(simulation, [&](const Simulation& s) {
-    farthest = larger(farthest, std::hypot(s.state().bodies.x[0], s.state().bodies.z[0]) + 0.5);
-  });
-  const Bodies& end = simulation.state().bodies;
+  const Watch watch = run_watched(
+      run, [&] { farthest = larger(farthest, std::hypot(run.bodies().x[0], run.bodies().z[0]) + 0.5); });
+  const Bodies& end = run.bodies();
   return {at_most("reach in radii of the drum", 1 + 1e-6, farthest / radius,
                   "no passing through the wall; residual 1e-9"),
           equals("speed after the impact", e * speed, std::hypot(end.v_x[0], end.v_z[0]), 1e-6 * speed,
@@ -158,24 +143,20 @@ std::vector<HardCheck> fast_passes() {
   // Two discs that pass each other 0.05 d apart at 200 sqrt(g d), from different places within a step.
   double worst = 0;
   for (int k = 0; k < 40; ++k) {
-    Trial trial = row({{-20 - 0.25 * k, 0, 1, 200}, {0, 1.05}}, 0.5, 0.4, 0.05);
-    const Bodies end = end_of(trial);
+    const Bodies end = bodies_at_end(row({{-20 - 0.25 * k, 0, 1, 200}, {0, 1.05}}, 0.5, 0.4, 0.05));
     for (const double gained : {end.v_z[0], end.v_z[1], end.v_x[1]}) worst = larger(worst, std::abs(gained));
   }
   return {at_most("largest speed gained", 0, worst, "straight paths that do not meet: no contact acts")};
 }
 
 std::vector<HardCheck> fast_target() {
-  Trial trial;
-  trial.discs = {{-1, 0, 1, 200}, {0, 0}, {1.5, 0}};
-  trial.add_stage(0.5, 0.05);
-  Simulation simulation = trial.start();
+  TestRun run(scene_of({{-1, 0, 1, 200}, {0, 0}, {1.5, 0}}).lasting(0.5, 0.05));
   double overlap = 0;
-  run_watched(simulation, [&](const Simulation& s) {
-    const Bodies& b = s.state().bodies;
+  run_watched(run, [&] {
+    const Bodies& b = run.bodies();
     overlap = larger(overlap, larger(b.x[0] + 1 - b.x[1], b.x[1] + 1 - b.x[2]));
   });
-  const Bodies& end = simulation.state().bodies;
+  const Bodies& end = run.bodies();
   return {at_most("overlap", 1e-6, overlap, "gaps are closed, not crossed; residual 1e-9"),
           equals("common speed", 200.0 / 3, end.v_x[2], 1e-5, "momentum, e = 0"),
           equals("striker", 200.0 / 3, end.v_x[0], 1e-5, "momentum, e = 0")};

@@ -5,10 +5,10 @@
 #include <string>
 
 #include "tests/hardcases/particles/case_lists.hpp"
-#include "tests/hardcases/particles/trial.hpp"
+#include "tests/hardcases/particles/watch.hpp"
 
 namespace drumlin {
-using namespace particles;
+using namespace test;
 namespace {
 
 /// Angle after `time` of a disc that rolls inside a circle of radius R from rest: phi'' = -(2/3) g sin(phi) /
@@ -30,21 +30,15 @@ double pendulum_angle(double phi, double swing, double time) {
 
 double pendulum_error(double h) {
   const double radius = 10, swing = radius - 0.5, start = 0.5, time = 10;
-  Trial trial;
-  trial.discs = {{swing * std::sin(start), -swing * std::cos(start)}};
-  trial.scene.walls = {trial_container(radius)};
-  trial.scene.effects = {Gravity{}, Friction{1, 1}, std::nullopt, Spin{}};
-  trial.add_stage(time, h);
-  const Bodies end = end_of(trial);
+  const Bodies end = bodies_at_end(scene_of({{swing * std::sin(start), -swing * std::cos(start)}})
+                                       .between({drum_wall(radius)})
+                                       .with(Gravity{}, Friction{1, 1}, Spin{})
+                                       .lasting(time, h));
   return std::atan2(end.x[0], -end.z[0]) - pendulum_angle(start, swing, time);
 }
 
 double fall_error(double h) {
-  Trial trial;
-  trial.discs = {{0, 3}};
-  trial.scene.effects.gravity = Gravity{};
-  trial.add_stage(1, h);
-  return end_of(trial).z[0] - 2.5;
+  return bodies_at_end(scene_of({{0, 3}}).with(Gravity{}).lasting(1, h)).z[0] - 2.5;
 }
 
 std::vector<HardCheck> refinement() {
@@ -56,89 +50,88 @@ std::vector<HardCheck> refinement() {
               "about (h omega)^2, omega^2 = 2 g / (3 (R - r))")};
 }
 
-Trial heap() {
-  Trial trial;
+/// Of the bodies that `a` has, the first of `b`, which stand `where` those of `a` do.
+template <class Where>
+std::vector<HardCheck> same_bodies(const Bodies& a, const Bodies& b, Where where) {
+  double place = 0, spin = 0;
+  for (std::size_t k = 0; k < a.count(); ++k) {
+    const Point at = where(Point{a.x[k], a.z[k]});
+    place = larger(place, std::hypot(b.x[k] - at.x, b.z[k] - at.z));
+    spin = larger(spin, std::abs(a.spin[k] - b.spin[k]));
+  }
+  return {at_most("largest difference of a position", 1e-6, place, "residual 1e-9 over 50 or 100 steps"),
+          at_most("largest difference of a spin", 1e-5, spin, "residual 1e-9 over 50 or 100 steps")};
+}
+
+std::vector<Grain> nine_discs() {
+  std::vector<Grain> discs;
   for (int k = 0; k < 9; ++k)
-    trial.discs.push_back({1.01 * (k % 3) + 0.3 * (k / 3), 0.5 + 1.02 * (k / 3), 1, 0.1 * k, -0.3});
-  trial.scene.walls = {trial_segment("floor", -20, 0, 20, 0)};
-  trial.scene.effects = {Gravity{}, Friction{0.3, 0.3}, std::nullopt, Spin{}};
-  trial.scene.solver.max_sweeps = 20000;
-  trial.add_stage(0.5, 0.01);
+    discs.push_back({1.01 * (k % 3) + 0.3 * (k / 3), 0.5 + 1.02 * (k / 3), 1, 0.1 * k, -0.3});
+  return discs;
+}
+
+TestScene heap(const std::vector<Grain>& discs) {
+  TestScene trial = scene_of(discs)
+                        .between({floor_wall(20)})
+                        .with(Gravity{}, Friction{0.3, 0.3}, Spin{})
+                        .lasting(0.5, 0.01);
+  trial.solver.max_sweeps = 20000;
   return trial;
 }
 
 std::vector<HardCheck> rotated_frame() {
-  const double c = std::cos(std::numbers::pi / 6), s = std::sin(std::numbers::pi / 6);
-  Trial other = heap();
-  for (TrialDisc& d : other.discs)
-    d = {c * d.x - s * d.z, s * d.x + c * d.z, d.diameter, c * d.v_x - s * d.v_z, s * d.v_x + c * d.v_z};
-  other.scene.walls = {trial_segment("floor", -20 * c, -20 * s, 20 * c, 20 * s)};
-  other.scene.effects.gravity->direction_deg = -60;
-  const Bodies a = end_of(heap()), b = end_of(other);
-  double place = 0, spin = 0;
-  for (std::size_t k = 0; k < a.count(); ++k) {
-    place = larger(place, std::hypot(b.x[k] - c * a.x[k] + s * a.z[k], b.z[k] - s * a.x[k] - c * a.z[k]));
-    spin = larger(spin, std::abs(a.spin[k] - b.spin[k]));
+  const Pose turn{-std::numbers::pi / 6, 0, 0};
+  const auto turned = [&](Point p) { return moved(turn, p); };
+  std::vector<Grain> discs = nine_discs();
+  for (Grain& d : discs) {
+    const Point at = turned({d.x, d.z}), v = turned({d.v_x, d.v_z});
+    d = {at.x, at.z, d.diameter, v.x, v.z};
   }
-  return {at_most("largest difference of a position", 1e-6, place, "residual 1e-9 over 50 steps"),
-          at_most("largest difference of a spin", 1e-5, spin, "residual 1e-9 over 50 steps")};
+  const Point left = turned({-20, 0}), right = turned({20, 0});
+  const TestScene other =
+      heap(discs).between({segment("floor", {left.x, left.z}, {right.x, right.z})}).with(Gravity{9.81, -60});
+  return same_bodies(bodies_at_end(heap(nine_discs())), bodies_at_end(other), turned);
 }
 
 std::vector<HardCheck> galilean_shift() {
-  Trial trial;
-  for (int k = 0; k < 12; ++k)
-    trial.discs.push_back({1.01 * (k % 4), 1.02 * (k / 4), 1, 0.3 * (k % 3) - 0.3, -0.2 * (k / 4)});
-  trial.scene.effects.friction = Friction{0.3, 0.3};
-  trial.scene.effects.restitution = Restitution{0.5, 0.5};
-  trial.scene.effects.spin = Spin{};
-  trial.add_stage(1, 0.01);
-  Trial moving = trial;
-  for (TrialDisc& d : moving.discs) d.v_x += 5, d.v_z -= 3;
-  const Bodies a = end_of(trial), b = end_of(moving);
-  double place = 0, spin = 0;
-  for (std::size_t k = 0; k < a.count(); ++k) {
-    place = larger(place, std::hypot(b.x[k] - a.x[k] - 5, b.z[k] - a.z[k] + 3));
-    spin = larger(spin, std::abs(a.spin[k] - b.spin[k]));
-  }
-  return {at_most("largest difference of a position", 1e-6, place, "residual 1e-9 over 100 steps"),
-          at_most("largest difference of a spin", 1e-5, spin, "residual 1e-9 over 100 steps")};
-}
-
-/// Contacts that the solver saw, summed over all steps.
-long contacts_of(Simulation& simulation) {
-  long sum = 0;
-  while (!simulation.finished()) sum += simulation.step().contacts;
-  return sum;
+  const auto end = [](double v_x, double v_z) {
+    std::vector<Grain> discs;
+    for (int k = 0; k < 12; ++k)
+      discs.push_back({1.01 * (k % 4), 1.02 * (k / 4), 1, 0.3 * (k % 3) - 0.3 + v_x, -0.2 * (k / 4) + v_z});
+    return bodies_at_end(
+        scene_of(discs).with(Friction{0.3, 0.3}, Restitution{0.5, 0.5}, Spin{}).lasting(1, 0.01));
+  };
+  return same_bodies(end(0, 0), end(5, -3), [](Point p) { return Point{p.x + 5, p.z - 3}; });
 }
 
 std::vector<HardCheck> stray_grain() {
-  Trial with = heap();
-  with.discs.push_back({9e5, 9e5, 1.2, 3, -2});  // last: the heap keeps its numbers
-  Simulation alone = heap().start(), beside = with.start();
-  const long contacts = contacts_of(alone), contacts_beside = contacts_of(beside);
-  const Bodies &a = alone.state().bodies, &b = beside.state().bodies;
-  double place = 0;
-  for (std::size_t k = 0; k < a.count(); ++k)
-    place = larger(place, std::hypot(b.x[k] - a.x[k], b.z[k] - a.z[k]));
-  return {equals("pairs that the solver saw more or less", 0, static_cast<double>(contacts_beside - contacts),
-                 0, "the stray disc meets nothing"),
-          at_most("largest difference of a position in the heap", 1e-6, place, "residual 1e-9 over 50 steps"),
-          equals("fall of the stray disc", -2 * 0.5 - 0.125, b.z.back() - 9e5, 3e-3, "h t g / 2 = 0.0025")};
+  std::vector<Grain> discs = nine_discs();
+  TestRun alone(heap(discs));
+  discs.push_back({9e5, 9e5, 1, 3, -2});  // last: the heap keeps its numbers
+  TestRun beside(heap(discs));
+  const std::int64_t more = run_watched(beside).contacts - run_watched(alone).contacts;
+  auto checks = same_bodies(alone.bodies(), beside.bodies(), [](Point p) { return p; });
+  checks.push_back(equals("pairs that the solver saw more or less", 0, static_cast<double>(more), 0,
+                          "the stray disc meets nothing"));
+  checks.push_back(equals("fall of the stray disc", -2 * 0.5 - 0.125, beside.bodies().z.back() - 9e5, 3e-3,
+                          "h t g / 2 = 0.0025"));
+  return checks;
 }
 
 /// A drum of many discs that falls and begins to turn.
-Trial drum() {
-  Trial trial;
+TestScene drum() {
+  std::vector<Grain> discs;
   for (int i = -20; i <= 20; ++i)
     for (int k = -20; k <= 20; ++k)
       if (std::hypot(i, k) < 18)
-        trial.discs.push_back({1.04 * i + 0.01 * (k % 3), 1.04 * k, 0.9 + 0.02 * ((i * i + 3 * k * k) % 6)});
-  trial.scene.walls = {trial_container(20)};
-  trial.scene.effects = {Gravity{}, Friction{0.4, 0.9}, Restitution{0.46, 0.46}, Spin{}};
-  trial.scene.solver.tolerance = 1e-2;
-  trial.scene.solver.max_sweeps = 50;
-  trial.add_stage(100 * 0.0545, 0.0545);
-  trial.turn("drum", 0.05);
+        discs.push_back({1.04 * i + 0.01 * (k % 3), 1.04 * k, 0.9 + 0.02 * ((i * i + 3 * k * k) % 6)});
+  TestScene trial = scene_of(discs)
+                        .between({drum_wall(20)})
+                        .with(Gravity{}, Friction{0.4, 0.9}, Restitution{0.46, 0.46}, Spin{})
+                        .lasting(100 * 0.0545, 0.0545)
+                        .moving("drum", turning(0.05));
+  trial.solver.tolerance = 1e-2;
+  trial.solver.max_sweeps = 50;
   return trial;
 }
 
@@ -157,11 +150,9 @@ int differing(const SimulationState& a, const SimulationState& b) {
 
 std::vector<HardCheck> threads() {
   std::vector<HardCheck> checks;
-  Simulation one = drum().start(1);
-  run_watched(one);
+  const EndedRun one(drum());
   for (const int count : {2, 4}) {
-    Simulation many = drum().start(count);
-    run_watched(many);
+    const EndedRun many(drum(), count);
     checks.push_back(equals("numbers that differ, 1 against " + std::to_string(count) + " threads", 0,
                             differing(one.state(), many.state()), 0, "the same bytes"));
   }

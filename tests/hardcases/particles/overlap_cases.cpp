@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "tests/hardcases/particles/case_lists.hpp"
-#include "tests/hardcases/particles/trial.hpp"
+#include "tests/hardcases/particles/watch.hpp"
 
 namespace drumlin {
-using namespace particles;
+using namespace test;
 namespace {
 
 double summed_overlap(const Bodies& b) {
@@ -18,25 +18,35 @@ double summed_overlap(const Bodies& b) {
   return sum;
 }
 
-/// A square lattice of discs at rest, `spacing` apart.
-Trial squeezed(int side, double spacing, int steps) {
-  Trial trial;
-  for (int k = 0; k < side * side; ++k)
-    trial.discs.push_back({spacing * (k % side), 0.5 + spacing * (k / side)});
-  trial.scene.effects.friction = Friction{0.4, 0.4};
-  trial.scene.effects.spin = Spin{};
-  trial.scene.solver.projection_sweeps = 100;
-  trial.add_stage(0.05 * steps, 0.05);
-  return trial;
-}
+/// A square lattice of discs at rest, which a start state pushes together: no list of grains may overlap.
+struct Squeezed {
+  int side = 0;
+  double spacing = 0;
+  int steps = 0;
+
+  TestScene scene() const {
+    std::vector<Grain> discs;
+    for (int k = 0; k < side * side; ++k) discs.push_back({double(k % side), 0.5 + k / side});
+    TestScene trial = scene_of(discs).with(Friction{0.4, 0.4}, Spin{}).lasting(0.05 * steps, 0.05);
+    trial.solver.projection_sweeps = 100;
+    return trial;
+  }
+  SimulationState state(std::size_t walls = 0) const {
+    SimulationState state = Simulation(scene()).state();
+    for (double& x : state.bodies.x) x *= spacing;
+    for (double& z : state.bodies.z) z = 0.5 + (z - 0.5) * spacing;
+    state.pose_at_start.resize(walls);
+    return state;
+  }
+};
 
 /// `share` of the overlap may be left at the end.
-std::vector<HardCheck> opens_slowly(const Trial& trial, double share) {
-  Simulation simulation = trial.start();
-  const double first = summed_overlap(simulation.state().bodies);
+std::vector<HardCheck> opens_slowly(const Squeezed& squeezed, double share) {
+  TestRun run(squeezed.scene(), squeezed.state());
+  const double first = summed_overlap(run.bodies());
   double last = first, rise = 0;
-  const Watch watch = run_watched(simulation, [&](const Simulation& s) {
-    const double now = summed_overlap(s.state().bodies);
+  const Watch watch = run_watched(run, [&] {
+    const double now = summed_overlap(run.bodies());
     rise = larger(rise, now - last);
     last = now;
   });
@@ -50,16 +60,17 @@ std::vector<HardCheck> opens_slowly(const Trial& trial, double share) {
 
 /// `share`: of an overlap, taken off per step.
 std::vector<HardCheck> thirty_percent_in_gravity(std::optional<double> share) {
-  Trial trial = squeezed(6, 0.7, 800);
-  trial.scene.walls = {trial_floor(), trial_segment("left", -0.5, 0, -0.5, 100),
-                       trial_segment("right", 4, 0, 4, 100)};
-  trial.scene.effects.gravity = Gravity{};
-  trial.scene.solver.tolerance = 1e-2;
-  trial.scene.solver.max_sweeps = 100;
-  trial.scene.solver.projection_share = share;
-  Simulation simulation = trial.start();
-  const Watch watch = run_watched(simulation);
-  const Bodies& b = simulation.state().bodies;
+  const Squeezed squeezed{6, 0.7, 800};
+  TestScene trial = squeezed.scene()
+                        .between({floor_wall(), segment("left", {-0.5, 0}, {-0.5, 100}),
+                                  segment("right", {4, 0}, {4, 100})})
+                        .with(Gravity{});
+  trial.solver.tolerance = 1e-2;
+  trial.solver.max_sweeps = 100;
+  trial.solver.projection_share = share;
+  TestRun run(trial, squeezed.state(trial.walls.size()));
+  const Watch watch = run_watched(run);
+  const Bodies& b = run.bodies();
   int outside = 0;
   for (std::size_t k = 0; k < b.count(); ++k) outside += b.x[k] < -0.5 || b.x[k] > 4 || b.z[k] < 0;
   const double pairs = 60;  // neighbours at the start
@@ -77,9 +88,13 @@ std::vector<HardCheck> thirty_percent_in_gravity(std::optional<double> share) {
 std::vector<HardCase> overlap_cases() {
   return {
       {"overlap-5", "an overlapped start opens monotonically and gives no kinetic energy", true,
-       [] { return opens_slowly(squeezed(3, 0.95, 100), 0.6); }},
+       [] {
+         return opens_slowly({3, 0.95, 100}, 0.6);
+       }},
       {"overlap-30", "the same with an overlap of 30 %", true,
-       [] { return opens_slowly(squeezed(6, 0.7, 1500), 0.05); }},
+       [] {
+         return opens_slowly({6, 0.7, 1500}, 0.05);
+       }},
       {"overlap-30-heap", "30 % of overlap between walls, in gravity: it opens, energy stays bounded", true,
        [] { return thirty_percent_in_gravity({}); }},
       {"overlap-30-heap-share", "the same where three fifths of an overlap go in a step", true,

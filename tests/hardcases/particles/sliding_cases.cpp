@@ -3,24 +3,19 @@
 #include <numbers>
 
 #include "tests/hardcases/particles/case_lists.hpp"
-#include "tests/hardcases/particles/trial.hpp"
+#include "tests/hardcases/particles/watch.hpp"
 
 namespace drumlin {
-using namespace particles;
+using namespace test;
 namespace {
 
 const char* const exact = "one contact is solved exactly; residual 1e-9";
 
 /// Acceleration of a disc on a floor under gravity tilted by `slope_deg`.
 double acceleration_on_incline(double slope_deg, double mu, bool spin = true) {
-  Trial trial;
-  trial.discs = {{0, 0.5}};
-  trial.scene.walls = {trial_floor()};
-  trial.scene.effects.gravity = Gravity{9.81, -90 + slope_deg};
-  trial.scene.effects.friction = Friction{mu, mu};
-  if (spin) trial.scene.effects.spin = Spin{};
-  trial.add_stage(2, 1e-3);
-  return end_of(trial).v_x[0] / 2;
+  TestScene trial =
+      on_floor({{0, 0.5}}).with(Gravity{9.81, -90 + slope_deg}, Friction{mu, mu}).lasting(2, 1e-3);
+  return bodies_at_end(spin ? trial.with(Spin{}) : trial).v_x[0] / 2;
 }
 
 std::vector<HardCheck> incline() {
@@ -39,19 +34,17 @@ std::vector<HardCheck> incline() {
 
 std::vector<HardCheck> slide_to_roll() {
   const double mu = 0.2, v0 = 1.5, h = 1e-3;
-  Trial trial;
-  trial.discs = {{0, 0.5, 1, v0}};
-  trial.scene.walls = {trial_floor()};
-  trial.scene.effects = {Gravity{}, Friction{mu, mu}, std::nullopt, Spin{}};
-  trial.add_stage(4, h);
-  Simulation simulation = trial.start();
+  TestRun run(scene_of({{0, 0.5, 1, v0}})
+                  .between({floor_wall()})
+                  .with(Gravity{}, Friction{mu, mu}, Spin{})
+                  .lasting(4, h));
   double rolls_at = 0;
-  run_watched(simulation, [&](const Simulation& s) {
-    const Bodies& b = s.state().bodies;
-    if (rolls_at == 0 && std::abs(b.v_x[0] - 0.5 * b.spin[0]) < 1e-9) rolls_at = s.state().time();
+  run_watched(run, [&] {
+    const Bodies& b = run.bodies();
+    if (rolls_at == 0 && std::abs(b.v_x[0] - 0.5 * b.spin[0]) < 1e-9) rolls_at = run.time();
   });
   return {equals("time at which it rolls", v0 / (3 * mu), rolls_at, 2 * h, "known to a step"),
-          equals("speed", 2.0 / 3 * v0, simulation.state().bodies.v_x[0], 1e-9, exact)};
+          equals("speed", 2.0 / 3 * v0, run.bodies().v_x[0], 1e-9, exact)};
 }
 
 }  // namespace

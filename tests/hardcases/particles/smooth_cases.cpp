@@ -7,39 +7,36 @@
 #include <string>
 
 #include "tests/hardcases/particles/case_lists.hpp"
-#include "tests/hardcases/particles/trial.hpp"
+#include "tests/hardcases/particles/watch.hpp"
 
 namespace drumlin {
-using namespace particles;
+using namespace test;
 namespace {
 
 const double millisecond = 1e-3 / std::sqrt(1e-2 / 9.81), metre_per_second = 1 / std::sqrt(1e-2 * 9.81);
 
-Trial trial_with_gravity(double e) {
-  Trial trial;
-  trial.scene.effects.gravity = Gravity{};
-  trial.scene.effects.restitution = Restitution{e, e};
-  return trial;
+TestScene bouncing(const std::vector<Grain>& discs, double e) {
+  return on_floor(discs).with(Restitution{e, e});
 }
 
 /// A floor of segments that meet at these abscissae.
-void add_floor(Trial& trial, const std::vector<double>& joints) {
+std::vector<Wall> joined_floor(const std::vector<double>& joints) {
+  std::vector<Wall> walls;
   for (std::size_t k = 0; k + 1 < joints.size(); ++k)
-    trial.scene.walls.push_back(trial_segment("floor" + std::to_string(k), joints[k], 0, joints[k + 1], 0));
+    walls.push_back(segment("floor" + std::to_string(k), {joints[k], 0}, {joints[k + 1], 0}));
+  return walls;
 }
 
 std::vector<HardCheck> flat_joints() {
   std::vector<HardCheck> checks;
   for (const double speed : {1.0, 20.0})
     for (const double e : {0.0, 1.0}) {
-      Trial trial = trial_with_gravity(e);
       std::vector<double> joints{-10, 0.2};
       for (int k = 1; k < 23; ++k) joints.push_back(joints.back() + 1.3 * speed);
       joints.push_back(joints.back() + 1000);
-      add_floor(trial, joints);
-      trial.discs = {{0, 0.5, 1, speed * metre_per_second}};
-      trial.add_stage(400 * millisecond, millisecond);
-      const Bodies end = end_of(trial);
+      const Bodies end = bodies_at_end(bouncing({{0, 0.5, 1, speed * metre_per_second}}, e)
+                                           .between(joined_floor(joints))
+                                           .lasting(400 * millisecond, millisecond));
       const std::string at =
           std::to_string(static_cast<int>(speed)) + " m/s, e = " + std::to_string(static_cast<int>(e));
       checks.push_back(
@@ -51,12 +48,11 @@ std::vector<HardCheck> flat_joints() {
 
 std::vector<HardCheck> concave_joint() {
   const double speed = metre_per_second, angle = 0.2;
-  Trial trial;
-  trial.scene.walls = {trial_segment("floor", -10, 0, 0.2, 0),
-                       trial_segment("slope", 0.2, 0, 0.2 + 200 * std::cos(angle), 200 * std::sin(angle))};
-  trial.discs = {{-0.5, 0.5, 1, speed}};
-  trial.add_stage(100 * millisecond, millisecond);
-  const Bodies end = end_of(trial);
+  const Bodies end = bodies_at_end(
+      scene_of({{-0.5, 0.5, 1, speed}})
+          .between({segment("floor", {-10, 0}, {0.2, 0}),
+                    segment("slope", {0.2, 0}, {0.2 + 200 * std::cos(angle), 200 * std::sin(angle)})})
+          .lasting(100 * millisecond, millisecond));
   return {equals("speed up the slope", speed * std::cos(angle), std::hypot(end.v_x[0], end.v_z[0]),
                  1e-6 * speed, "the part across the slope is lost once; residual 1e-9"),
           equals("its angle", angle, std::atan2(end.v_z[0], end.v_x[0]), 1e-6, "along the slope")};
@@ -66,11 +62,9 @@ std::vector<HardCheck> close_passes() {
   double worst = 0;
   for (int k = 0; k <= 40; ++k) {
     const double way = 0.05 + 0.01 * k, speed = way / 2 / millisecond;
-    Trial trial;
-    trial.scene.effects.restitution = Restitution{1, 1};
-    trial.discs = {{-2.03, 0, 1, speed}, {2, 1.01, 1, -speed}};
-    trial.add_stage(80 * millisecond / way, millisecond);
-    const Bodies end = end_of(trial);
+    const Bodies end = bodies_at_end(scene_of({{-2.03, 0, 1, speed}, {2, 1.01, 1, -speed}})
+                                         .with(Restitution{1, 1})
+                                         .lasting(80 * millisecond / way, millisecond));
     for (const double v : {end.v_z[0], end.v_z[1], end.v_x[0] - speed, end.v_x[1] + speed})
       worst = larger(worst, std::abs(v));
   }
@@ -80,149 +74,112 @@ std::vector<HardCheck> close_passes() {
 
 std::vector<HardCheck> slow_along_floor() {
   std::vector<HardCheck> checks;
-  Trial wall = trial_with_gravity(1);
-  wall.scene.walls = {trial_floor(), trial_segment("upright", 1, 0, 1, 5)};
-  wall.discs = {{0, 0.5, 1, 0.015 * metre_per_second}};
-  wall.add_stage(600 * millisecond, millisecond);
-  checks.push_back(equals("against an upright wall", -0.015 * metre_per_second, end_of(wall).v_x[0], 1e-9,
-                          "gravity has no part along this normal; residual 1e-9"));
-  Trial two = trial_with_gravity(1);
-  two.scene.walls = {trial_floor()};
-  two.discs = {{0, 0.5, 1, 0.009 * metre_per_second}, {1.1, 0.5, 1, -0.009 * metre_per_second}};
-  two.add_stage(300 * millisecond, millisecond);
-  const Bodies end = end_of(two);
-  checks.push_back(
-      equals("first of two", -0.009 * metre_per_second, end.v_x[0], 1e-9, "equal discs exchange velocities"));
-  checks.push_back(
-      equals("second of two", 0.009 * metre_per_second, end.v_x[1], 1e-9, "equal discs exchange velocities"));
+  const TestScene wall = bouncing({{0, 0.5, 1, 0.015 * metre_per_second}}, 1)
+                             .between({floor_wall(), segment("upright", {1, 0}, {1, 5})})
+                             .lasting(600 * millisecond, millisecond);
+  checks.push_back(equals("against an upright wall", -0.015 * metre_per_second, bodies_at_end(wall).v_x[0],
+                          1e-9, "gravity has no part along this normal; residual 1e-9"));
+  const double v = 0.009 * metre_per_second;
+  const Bodies end =
+      bodies_at_end(bouncing({{0, 0.5, 1, v}, {1.1, 0.5, 1, -v}}, 1).lasting(300 * millisecond, millisecond));
+  checks.push_back(equals("first of two", -v, end.v_x[0], 1e-9, "equal discs exchange velocities"));
+  checks.push_back(equals("second of two", v, end.v_x[1], 1e-9, "equal discs exchange velocities"));
   return checks;
 }
 
 std::vector<HardCheck> bounces() {
   const double height = 10;
-  Trial elastic = trial_with_gravity(1);
-  elastic.scene.walls = {trial_floor()};
-  elastic.discs = {{0, 0.5 + height}};
-  elastic.add_stage(100 * std::sqrt(2 * height), millisecond);
-  Simulation simulation = elastic.start();
+  TestRun run(bouncing({{0, 0.5 + height}}, 1).lasting(100 * std::sqrt(2 * height), millisecond));
   double lowest_peak = height, before = height, now = height;
-  run_watched(simulation, [&](const Simulation& s) {
-    const double z = s.state().bodies.z[0] - 0.5;
+  run_watched(run, [&] {
+    const double z = run.bodies().z[0] - 0.5;
     if (now > before && now > z) lowest_peak = std::min(lowest_peak, now);
     before = now, now = z;
   });
   const double e = 0.8, rest = std::sqrt(2 * height) * (1 + e) / (1 - e);
-  Trial lossy = trial_with_gravity(e);
-  lossy.scene.walls = {trial_floor()};
-  lossy.discs = {{0, 0.5 + height}};
-  lossy.add_stage(1.1 * rest, millisecond);
-  Simulation settles = lossy.start();
+  TestRun settles(bouncing({{0, 0.5 + height}}, e).lasting(1.1 * rest, millisecond));
   double last = 0, jitter = 0;
-  run_watched(settles, [&](const Simulation& s) {
-    const double speed = std::abs(s.state().bodies.v_z[0]);
-    if (speed > 1e-6) last = s.state().time();
-    if (s.state().time() > 1.01 * rest) jitter = larger(jitter, speed);
+  run_watched(settles, [&] {
+    const double speed = std::abs(settles.bodies().v_z[0]);
+    if (speed > 1e-6) last = settles.time();
+    if (settles.time() > 1.01 * rest) jitter = larger(jitter, speed);
   });
   return {equals("lowest of 50 peaks, e = 1", height, lowest_peak, 1e-3 * height,
                  "0.1 %; a peak may lie half a step from the end of one: 1e-4"),
           equals("time of rest, e = 0.8", rest, last, 1e-3 * rest, "0.1 %"),
           at_most("speed afterwards", 1e-9, jitter, "the residual asked of the solver"),
-          equals("height at the end", 0.5, settles.state().bodies.z[0], 1e-6, "overlap is projected away")};
+          equals("height at the end", 0.5, settles.bodies().z[0], 1e-6, "overlap is projected away")};
 }
 
 std::vector<HardCheck> slider() {
-  Trial trial;
-  trial.scene.walls = {trial_container(10)};
   const double speed = metre_per_second;
-  trial.discs = {{0, -9.5, 1, speed}};
-  trial.add_stage(10000 * millisecond, millisecond);
-  const Bodies end = end_of(trial);
+  const Bodies end = bodies_at_end(
+      scene_of({{0, -9.5, 1, speed}}).between({drum_wall(10)}).lasting(10000 * millisecond, millisecond));
   return {equals("speed after 10 s, a way of 1000 d", speed, std::hypot(end.v_x[0], end.v_z[0]), 0.01 * speed,
                  "a smooth drum does no work: 1 %")};
 }
 
 std::vector<HardCheck> rolling_pendulum() {
-  Trial trial;
-  trial.scene.walls = {trial_container(10)};
-  trial.scene.effects.gravity = Gravity{};
-  trial.scene.effects.friction = Friction{1, 1};
-  trial.scene.effects.spin = Spin{};
   const double angle = 0.5, path = 9.5;
-  trial.discs = {{path * std::sin(angle), -path * std::cos(angle)}};
-  trial.add_stage(20000 * millisecond, millisecond);
-  Simulation simulation = trial.start();
+  TestRun run(scene_of({{path * std::sin(angle), -path * std::cos(angle)}})
+                  .between({drum_wall(10)})
+                  .with(Gravity{}, Friction{1, 1}, Spin{})
+                  .lasting(20000 * millisecond, millisecond));
   double farthest = 0;
   const double last = 18000 * millisecond;
-  run_watched(simulation, [&](const Simulation& s) {
-    const auto& b = s.state().bodies;
-    if (s.state().time() > last) farthest = larger(farthest, std::abs(std::atan2(b.x[0], -b.z[0])));
+  run_watched(run, [&] {
+    const auto& b = run.bodies();
+    if (run.time() > last) farthest = larger(farthest, std::abs(std::atan2(b.x[0], -b.z[0])));
   });
   return {equals("amplitude after 18 s", angle, farthest, 0.01 * angle, "rolling loses nothing: 1 %")};
 }
 
 /// Discs in hexagons with a gap in a closed box, with random velocities.
-Trial hexagons(double gap, double thermal_speed) {
-  Trial trial;
-  trial.scene.effects.restitution = Restitution{1, 1};
+TestScene hexagons(double gap, double thermal_speed) {
+  std::vector<Grain> discs;
   std::mt19937_64 random(7);
   std::normal_distribution<double> component(0, thermal_speed);
   const double apart = 1 + gap;
   for (int row = 0; row < 10; ++row)
     for (int k = 0; k < 10 - row % 2; ++k)
-      trial.discs.push_back({apart * (k + 0.5 * (row % 2)), apart * row * std::sqrt(3.0) / 2, 1,
-                             component(random), component(random)});
+      discs.push_back({apart * (k + 0.5 * (row % 2)), apart * row * std::sqrt(3.0) / 2, 1, component(random),
+                       component(random)});
   const double low = -0.5 - gap, right = 9 * apart + 0.5 + gap,
                top = 9 * apart * std::sqrt(3.0) / 2 + 0.5 + gap;
-  trial.scene.walls = {trial_segment("floor", low, low, right, low),
-                       trial_segment("top", low, top, right, top), trial_segment("left", low, low, low, top),
-                       trial_segment("right", right, low, right, top)};
-  return trial;
-}
-
-int unresolved_impacts(Simulation& simulation) {
-  int count = 0;
-  while (!simulation.finished()) count += simulation.step().impacts_unresolved;
-  return count;
+  return scene_of(discs)
+      .between({segment("floor", {low, low}, {right, low}), segment("top", {low, top}, {right, top}),
+                segment("left", {low, low}, {low, top}), segment("right", {right, low}, {right, top})})
+      .with(Restitution{1, 1});
 }
 
 std::vector<HardCheck> dense_elastic() {
   std::vector<HardCheck> checks;
   for (const double gap : {0.01, 0.001}) {
-    Trial trial = hexagons(gap, 0.1 * metre_per_second);
-    trial.add_stage(50 * millisecond, millisecond);
-    Simulation simulation = trial.start();
-    const double before = kinetic_energy(simulation.state().bodies);
-    const int unresolved = unresolved_impacts(simulation);
+    TestRun run(hexagons(gap, 0.1 * metre_per_second).lasting(50 * millisecond, millisecond));
+    const Watch watch = run_watched(run);
     const std::string at = ", gaps of " + std::to_string(gap).substr(0, 5) + " d";
-    checks.push_back(equals("energy at the end / at the start" + at, 1,
-                            kinetic_energy(simulation.state().bodies) / before, 1e-9,
+    checks.push_back(equals("energy at the end / at the start" + at, 1, 1 + watch.gain, 1e-9,
                             "elastic impacts; rounding"));
-    checks.push_back(at_most("impacts not resolved" + at, 0, unresolved, "each has its time"));
+    checks.push_back(at_most("impacts not resolved" + at, 0, watch.impacts_unresolved, "each has its time"));
   }
-  Trial collapse = hexagons(0.12, 2.5 * metre_per_second);
-  collapse.scene.effects.restitution = Restitution{0, 0};
-  collapse.add_stage(50 * millisecond, millisecond);
-  Simulation simulation = collapse.start();
+  TestRun run(
+      hexagons(0.12, 2.5 * metre_per_second).with(Restitution{0, 0}).lasting(50 * millisecond, millisecond));
   checks.push_back(at_most("impacts not resolved, e = 0, a quarter of a diameter a step", 0,
-                           unresolved_impacts(simulation), "the contact problem takes the same speed"));
+                           run_watched(run).impacts_unresolved, "the contact problem takes the same speed"));
   return checks;
 }
 
 std::vector<HardCheck> shaken_ledger() {
   std::vector<HardCheck> checks;
   for (const double step : {0.5, 0.25}) {
-    Trial trial = hexagons(0.05, 0);
-    trial.scene.walls.erase(trial.scene.walls.begin() + 1);  // open above
-    trial.scene.effects.restitution = Restitution{0.3, 0.3};
-    trial.scene.effects.gravity = Gravity{};
-    trial.scene.output.energy_ledger = true;
-    trial.add_stage(1000 * millisecond, step * millisecond);
+    TestScene trial = hexagons(0.05, 0)
+                          .with(Restitution{0.3, 0.3}, Gravity{})
+                          .lasting(1000 * millisecond, step * millisecond);
+    trial.walls.erase(trial.walls.begin() + 1);  // open above
+    trial.output.energy_ledger = true;
     for (const char* wall : {"floor", "left", "right"})
-      trial.scene.stages.back().motions.push_back(
-          {wall, Oscillation{{0, 0.2}, 20 * std::sqrt(1e-2 / 9.81) / std::sqrt(1e-3 / 9.81), 0}});
-    Simulation simulation = trial.start();
-    while (!simulation.finished()) simulation.step();
-    const EnergyLedger& ledger = *simulation.state().energy;
+      trial.moving(wall, Oscillation{{0, 0.2}, 20 * std::sqrt(1e-2 / 9.81) / time_s, 0});
+    const EnergyLedger ledger = *EndedRun(trial).state().energy;
     const std::string at = ", h = " + std::to_string(step).substr(0, 4) + " ms";
     checks.push_back(equals("time integration / work of the walls" + at, 0,
                             ledger.time_integration / ledger.walls, 0.02,

@@ -6,34 +6,30 @@
 #include <string>
 
 #include "tests/hardcases/particles/case_lists.hpp"
-#include "tests/hardcases/particles/trial.hpp"
+#include "tests/hardcases/particles/watch.hpp"
 
 namespace drumlin {
-using namespace particles;
+using namespace test;
 namespace {
 
 constexpr double time_step = 0.05;
 
-Trial resting(std::vector<TrialDisc> discs, double mu) {
-  Trial trial;
-  trial.discs = std::move(discs);
-  trial.scene.walls = {trial_floor()};
-  trial.scene.effects = {Gravity{}, Friction{mu, mu}, std::nullopt, Spin{}};
-  trial.scene.solver.max_sweeps = 20000;
-  trial.add_stage(20 * time_step, time_step);
+TestScene resting(const std::vector<Grain>& discs, double mu) {
+  TestScene trial = on_floor(discs).with(Friction{mu, mu}, Spin{}).lasting(20 * time_step, time_step);
+  trial.solver.max_sweeps = 20000;
   return trial;
 }
 
 /// Largest error of the normal forces of a column, in its weight; disc k rests on disc k - 1. Infinite when a
 /// contact is missing.
-double load_error(Simulation& simulation) {
-  run_watched(simulation);
-  const Bodies& bodies = simulation.state().bodies;
+double load_error(TestRun& run) {
+  run_watched(run);
+  const Bodies& bodies = run.bodies();
   const auto count = static_cast<std::int32_t>(bodies.count());
   std::vector<double> above(count);
-  double weight = 0;
-  for (std::int32_t k = count - 1; k >= 0; --k) above[k] = weight += 1 / bodies.inverse_mass[k];
-  const Snapshot snapshot = simulation.take_snapshot();
+  double all = 0;
+  for (std::int32_t k = count - 1; k >= 0; --k) above[k] = all += 1 / bodies.inverse_mass[k];
+  const Snapshot snapshot = run.take_snapshot();
   if (static_cast<std::int32_t>(snapshot.contacts.size()) != count) return HUGE_VAL;
   double worst = 0;
   for (const SnapshotContact& c : snapshot.contacts) {
@@ -41,37 +37,29 @@ double load_error(Simulation& simulation) {
     worst =
         larger(worst, larger(std::abs(c.impulse_n / time_step - load), std::abs(c.impulse_t / time_step)));
   }
-  return worst / weight;
+  return worst / all;
 }
 
 std::vector<HardCheck> column(int count) {
-  std::vector<TrialDisc> discs;
-  for (int k = 0; k < count; ++k) discs.push_back({0, 0.5 + k});
-  Trial trial = resting(discs, 0.4);
-  Simulation simulation = trial.start();
-  const double error = load_error(simulation);
+  TestRun run(resting(column_of(count), 0.4));
+  const double error = load_error(run);
   return {at_most("error of a force / weight", 1e-5, error,
                   "residual 1e-9 of |q|; an error of q adds up over the column"),
-          at_most("speed / (g h)", 1e-5,
-                  std::sqrt(2 * kinetic_energy(simulation.state().bodies) /
-                            total_mass(simulation.state().bodies)) /
-                      time_step,
+          at_most("speed / (g h)", 1e-5, std::sqrt(2 * run.kinetic() / total_mass(run.bodies())) / time_step,
                   "at rest; as above")};
 }
 
 std::vector<HardCheck> mass_ratios() {
   std::vector<HardCheck> checks;
-  const double light = mass_of_disc(0.5);
+  const TestScene scene = resting(column_of(4), 0.4);
   for (const double ratio : {1e3, 1e6})
     for (const bool heavy_first : {true, false}) {
-      std::vector<TrialDisc> discs;
-      for (int k = 0; k < 4; ++k)
-        discs.push_back({0, 0.5 + k, 1, 0, 0, 0, (k % 2 == 0) == heavy_first ? light * ratio : light});
-      Trial trial = resting(discs, 0.4);
-      Simulation simulation = trial.start();
+      SimulationState state = Simulation(scene).state();
+      for (int k = heavy_first ? 0 : 1; k < 4; k += 2) state.bodies.inverse_mass[k] /= ratio;
+      TestRun run(scene, state);
       checks.push_back(at_most("error of a force / weight, 1:" + std::to_string(static_cast<int>(ratio)) +
                                    (heavy_first ? ", heavy below" : ", light below"),
-                               1e-9 * ratio, load_error(simulation),
+                               1e-9 * ratio, load_error(run),
                                "residual 1e-9, times the condition of W, which is the ratio"));
     }
   return checks;
@@ -83,21 +71,19 @@ std::vector<HardCheck> wedge() {
     const double alpha = half_deg * std::numbers::pi / 180, far = 10;
     // Walls at `alpha` to the vertical: the disc touches both with its centre r/sin(alpha) above the corner.
     const double mu = 1.2 * std::tan(alpha) + 0.6;
-    Trial trial;
-    trial.discs = {{0, 0.5 / std::sin(alpha)}};
-    trial.scene.walls = {trial_segment("left", 0, 0, -far * std::sin(alpha), far * std::cos(alpha)),
-                         trial_segment("right", 0, 0, far * std::sin(alpha), far * std::cos(alpha))};
-    trial.scene.effects = {Gravity{}, Friction{mu, mu}, std::nullopt, Spin{}};
-    trial.add_stage(50 * time_step, time_step);
-    Simulation simulation = trial.start();
-    run_watched(simulation);
+    TestRun run(scene_of({{0, 0.5 / std::sin(alpha)}})
+                    .between({segment("left", {0, 0}, {-far * std::sin(alpha), far * std::cos(alpha)}),
+                              segment("right", {0, 0}, {far * std::sin(alpha), far * std::cos(alpha)})})
+                    .with(Gravity{}, Friction{mu, mu}, Spin{})
+                    .lasting(50 * time_step, time_step));
+    run_watched(run);
     double normal = 0;
-    for (const SnapshotContact& c : simulation.take_snapshot().contacts) normal += c.impulse_n / time_step;
-    const Bodies& b = simulation.state().bodies;
+    for (const SnapshotContact& c : run.take_snapshot().contacts) normal += c.impulse_n / time_step;
+    const Bodies& b = run.bodies();
     const std::string suffix = ", half angle " + std::to_string(static_cast<int>(half_deg)) + " deg";
     checks.push_back(
         equals("speed" + suffix, 0, std::hypot(b.v_x[0], b.v_z[0], 0.5 * b.spin[0]), 1e-8, "residual 1e-9"));
-    checks.push_back(at_most("sum of normal forces / weight" + suffix, 10, normal / mass_of_disc(0.5),
+    checks.push_back(at_most("sum of normal forces / weight" + suffix, 10, normal / weight,
                              "any value that wedges is a solution; it must stay bounded"));
   }
   return checks;
@@ -105,27 +91,27 @@ std::vector<HardCheck> wedge() {
 
 std::vector<HardCheck> crystal() {
   const int across = 16, rows = 12;
-  std::vector<TrialDisc> discs;
+  std::vector<Grain> discs;
   for (int row = 0; row < rows; ++row)
     for (int k = 0; k < across - row % 2; ++k)
       discs.push_back({0.5 + k + 0.5 * (row % 2), 0.5 + row * std::sqrt(0.75)});
-  Trial trial = resting(discs, 0.4);
-  trial.scene.walls = {trial_floor(), trial_segment("left", 0, 0, 0, 100),
-                       trial_segment("right", across, 0, across, 100)};
-  trial.scene.solver.tolerance = 1e-7;
-  Simulation simulation = trial.start();
-  const Watch watch = run_watched(simulation);
-  const Bodies& bodies = simulation.state().bodies;
+  TestScene trial = resting(discs, 0.4)
+                        .between({floor_wall(), segment("left", {0, 0}, {0, 100}),
+                                  segment("right", {across, 0}, {across, 100})});
+  trial.solver.tolerance = 1e-7;
+  TestRun run(trial);
+  const Watch watch = run_watched(run);
+  const Bodies& bodies = run.bodies();
   double push_x = 0, push_z = 0;
-  for (const SnapshotContact& c : simulation.take_snapshot().contacts) {
+  for (const SnapshotContact& c : run.take_snapshot().contacts) {
     if (c.j >= 0) continue;
     push_x += (c.normal_x * c.impulse_n + c.normal_z * c.impulse_t) / time_step;
     push_z += (c.normal_z * c.impulse_n - c.normal_x * c.impulse_t) / time_step;
   }
-  const double weight = total_mass(bodies);
-  return {equals("lift of the walls / weight", 1, push_z / weight, 1e-3, "residual of a hyperstatic packing"),
-          equals("sideways push of the walls / weight", 0, push_x / weight, 1e-3, "as above"),
-          at_most("rms speed / (g h)", 1e-3, std::sqrt(2 * kinetic_energy(bodies) / weight) / time_step,
+  const double all = total_mass(bodies);
+  return {equals("lift of the walls / weight", 1, push_z / all, 1e-3, "residual of a hyperstatic packing"),
+          equals("sideways push of the walls / weight", 0, push_x / all, 1e-3, "as above"),
+          at_most("rms speed / (g h)", 1e-3, std::sqrt(2 * kinetic_energy(bodies) / all) / time_step,
                   "at rest; forces are not unique and not compared"),
           at_most("overlap", 1e-5, watch.largest_overlap, "discs that touch do not sink")};
 }
@@ -151,23 +137,17 @@ double coordination(const Snapshot& snapshot, std::size_t count) {
 
 /// Discs that a cell presses from all sides, with all defaults of the solver.
 std::vector<HardCheck> pressed_with_friction(double mu) {
-  Scene scene = Trial().scene;
   constexpr int count = 200;
-  constexpr double side = 20, time_s = 0.0101;
-  scene.grains.source = GeneratedGrains{count, 0.8, 1.2, RectangleRegion{{0, 0}, {side, side}}};
+  constexpr double side = 20;
+  TestScene scene = scene_of(GeneratedGrains{count, 0.8, 1.2, RectangleRegion{{0, 0}, {side, side}}});
+  scene.with(Friction{mu, mu}, Spin{}).lasting(30, 0.02);
   scene.periodic_x = PeriodicX{0, side};
   scene.periodic_z = PeriodicZ{0, side};
-  scene.effects.friction = Friction{mu, mu};
-  scene.effects.spin = Spin{};
-  scene.solver = {};
-  Stage stage;
-  stage.name = "press", stage.duration_s = 30 * time_s, stage.time_step_s = 0.02 * time_s;
-  const CellAxis pressed{scene.grains.density_kg_m3 * 9.81e-3, {}};
-  stage.cell = StageCell{pressed, pressed, {}, 1};
-  scene.stages = {stage};
-  Simulation simulation(scene);
-  const Watch watch = run_watched(simulation);
-  const double Z = coordination(simulation.take_snapshot(), count);
+  const CellAxis pressed{pressure_unit, {}};
+  scene.stages[0].cell = StageCell{pressed, pressed, {}, 1};
+  TestRun run(scene);
+  const Watch watch = run_watched(run);
+  const double Z = coordination(run.take_snapshot(), count);
   return {at_most("steps that miss a tolerance", 0, watch.steps_missed, "each has a solution"),
           at_least("contacts of a disc", 2.9, Z, "isostatic: 3, less what the threshold of loads leaves out"),
           at_most("contacts of a disc", 3.4, Z, "3 for infinite friction; hardly a contact slides")};

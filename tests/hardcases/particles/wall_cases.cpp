@@ -10,14 +10,11 @@
 #include <utility>
 
 #include "tests/hardcases/particles/case_lists.hpp"
-#include "tests/hardcases/particles/trial.hpp"
+#include "tests/hardcases/particles/watch.hpp"
 
 namespace drumlin {
-using namespace particles;
+using namespace test;
 namespace {
-
-const double unit_s = std::sqrt(1e-3 / 9.81);  // of a trial: d = 1 mm, 1000 kg/m3
-constexpr double mass_unit = 1000 * 1e-6, force_unit = mass_unit * 9.81;
 
 /// Numbers in [0, 1) that are the same everywhere.
 class Numbers {
@@ -28,17 +25,11 @@ class Numbers {
   std::mt19937 engine_{3};
 };
 
-/// What a user gets who asks for nothing.
-Trial with_default_solver() {
-  Trial trial;
-  trial.scene.solver = SolverSettings{};
-  return trial;
-}
-
-void rub(Trial& trial, double mu) {
-  if (mu == 0) return;
-  trial.scene.effects.friction = Friction{mu, mu};
-  trial.scene.effects.spin = Spin{};
+/// What a user gets who asks for nothing of the solver.
+TestScene plain(const std::vector<Grain>& discs, double mu) {
+  TestScene trial = scene_of(discs);
+  trial.solver = SolverSettings{};
+  return mu == 0 ? trial : trial.with(Friction{mu, mu}, Spin{});
 }
 
 // Walls that a force moves.
@@ -54,33 +45,29 @@ struct Pressed {
 /// Discs of 0.8 to 1.2 d, loose at first, pressed together with 10 rho0 g d.
 std::vector<HardCheck> pressed(const Pressed& asked) {
   const double h = 0.02, spacing = 1.25, half = asked.side * spacing / 2, pressure = 10;
-  Trial trial = with_default_solver();
+  std::vector<Grain> discs;
   Numbers numbers;
   for (int row = 0; row < asked.side; ++row)
     for (int k = 0; k < asked.side; ++k) {
       const double x = spacing * (k + 0.5) - half + 0.02 * numbers.next();
       const double z = spacing * (row + 0.5) - half + 0.02 * numbers.next();
-      trial.discs.push_back({x, z, 0.8 + 0.4 * numbers.next()});
+      discs.push_back({x, z, 0.8 + 0.4 * numbers.next()});
     }
-  trial.scene.walls = trial_box(half);
-  rub(trial, asked.mu);
-  trial.add_stage(asked.steps * h, h);
+  TestScene trial = plain(discs, asked.mu).between(box_walls(half)).lasting(asked.steps * h, h);
   const struct {
     const char* name;
     std::array<double, 2> inwards;
   } box[] = {{"top", {0, -1}}, {"left", {1, 0}}, {"right", {-1, 0}}, {"floor", {0, 1}}};
   for (const auto& wall : std::span(box).first(asked.walls))
-    trial.scene.stages.back().motions.push_back(
-        {wall.name,
-         ForceControl{wall.inwards, pressure * 2 * half * force_unit, asked.wall_mass * mass_unit, {0, 0}}});
-  Simulation simulation = trial.start();
+    trial.moving(wall.name, pushed(wall.inwards, pressure * 2 * half, asked.wall_mass));
+  TestRun run(trial);
   double sum = 0, latest = 0;
   int finite = 0;
   for (int step = 0; step < asked.steps; ++step) {
-    const double mean = simulation.step().overlap.mean;
+    const double mean = run.step().overlap.mean;
     sum += mean;
     if (2 * step > asked.steps) latest = larger(latest, mean);
-    finite += std::isfinite(kinetic_energy(simulation.state().bodies));
+    finite += std::isfinite(run.kinetic());
   }
   const std::string why = "what a step leaves must not add up over the steps";
   return {
@@ -104,34 +91,6 @@ struct Shaken {
 
 constexpr double half_width = 8, half_height = 12.4, shaking_rate = 0.5, shaking_step = 0.02;
 
-/// A box, or a floor and a roof in a periodic domain, with grains of 0.9 to 1.1 d. The solver has thirty
-/// sweeps.
-Trial filled(const Shaken& asked) {
-  Trial trial = with_default_solver();
-  Numbers numbers;
-  double x = -half_width, z = -half_height, row = 0;
-  const auto add = [&](double diameter) {
-    if (x + 1.05 * diameter > half_width) x = -half_width, z += std::exchange(row, 0);
-    trial.discs.push_back({x + 0.525 * diameter, z + 0.525 * diameter, diameter});
-    x += 1.05 * diameter, row = std::max(row, 1.05 * diameter);
-  };
-  for (int k = 0; k < asked.grains; ++k) add(0.9 + 0.2 * numbers.next());
-  if (asked.odd > 0) add(asked.odd);
-  trial.scene.walls = {trial_segment("box", -half_width, -half_height, half_width, -half_height),
-                       trial_segment("box", -half_width, half_height, half_width, half_height)};
-  if (asked.periodic) {
-    trial.scene.periodic_x = PeriodicX{-half_width, half_width};
-  } else {
-    trial.scene.walls.push_back(trial_segment("box", -half_width, -half_height, -half_width, half_height));
-    trial.scene.walls.push_back(trial_segment("box", half_width, -half_height, half_width, half_height));
-  }
-  trial.scene.effects.gravity = Gravity{};
-  trial.scene.effects.restitution = Restitution{0.46, 0.46};
-  rub(trial, 0.4);
-  trial.scene.solver.max_sweeps = 30;
-  return trial;
-}
-
 /// Displacement of the box at a time; the angle clockwise.
 Pose pose_of(const Shaken& asked, double time) {
   const double rate = 2 * std::numbers::pi * shaking_rate;
@@ -151,46 +110,73 @@ Pose pose_of(const Shaken& asked, double time) {
 }
 
 WallMotion motion_of(const Shaken& asked) {
-  const double hertz = shaking_rate / unit_s, quarter = 1 / (4 * shaking_rate);
+  const double hertz = shaking_rate / time_s, quarter = 1 / (4 * shaking_rate);
   const Pose most = pose_of(asked, quarter);  // of what swings
   if (asked.way == Way::turned)
-    return {"box", Rotation{most.angle / quarter / unit_s * 60 / (2 * std::numbers::pi), {0, 0}}};
+    return {"box", Rotation{most.angle / quarter / time_s * 60 / (2 * std::numbers::pi), {0, 0}}};
   if (asked.way == Way::rocked)
     return {"box", Rocking{most.angle * 180 / std::numbers::pi, hertz, 0, {0, 0}}};
   return {"box", Oscillation{{most.x, most.z}, hertz, 0}};
 }
 
-int outside(const Bodies& b, const Pose& pose, bool periodic) {
+/// A box, or a floor and a roof in a periodic domain, with grains of 0.9 to 1.1 d. The solver has thirty
+/// sweeps.
+TestScene filled(const Shaken& asked) {
+  std::vector<Grain> discs;
+  Numbers numbers;
+  double x = -half_width, z = -half_height, row = 0;
+  const auto add = [&](double diameter) {
+    if (x + 1.05 * diameter > half_width) x = -half_width, z += std::exchange(row, 0);
+    discs.push_back({x + 0.525 * diameter, z + 0.525 * diameter, diameter});
+    x += 1.05 * diameter, row = std::max(row, 1.05 * diameter);
+  };
+  for (int k = 0; k < asked.grains; ++k) add(0.9 + 0.2 * numbers.next());
+  if (asked.odd > 0) add(asked.odd);
+  TestScene trial = plain(discs, 0.4)
+                        .between({segment("box", {-half_width, -half_height}, {half_width, -half_height}),
+                                  segment("box", {-half_width, half_height}, {half_width, half_height})})
+                        .with(Gravity{}, Restitution{0.46, 0.46})
+                        .lasting(asked.steps * shaking_step, shaking_step);
+  trial.stages[0].motions = {motion_of(asked)};
+  if (asked.periodic) {
+    trial.periodic_x = PeriodicX{-half_width, half_width};
+  } else {
+    trial.walls.push_back(segment("box", {-half_width, -half_height}, {-half_width, half_height}));
+    trial.walls.push_back(segment("box", {half_width, -half_height}, {half_width, half_height}));
+  }
+  trial.solver.max_sweeps = 30;
+  return trial;
+}
+
+/// In a run whose unit of length is the mean diameter of its grains.
+int outside(const TestRun& run, const Shaken& asked) {
+  const double d = run.scales().length_m * 1e3;
+  const Pose back = inverse(pose_of(asked, run.time() * std::sqrt(d)));
+  const Bodies& b = run.bodies();
   int count = 0;
   for (std::size_t k = 0; k < b.count(); ++k) {
-    const Point at = moved(inverse(pose), {b.x[k], b.z[k]});
-    count += !(std::abs(at.z) < half_height && (periodic || std::abs(at.x) < half_width));
+    const Point at = moved(back, {b.x[k] * d, b.z[k] * d});
+    count += !(std::abs(at.z) < half_height && (asked.periodic || std::abs(at.x) < half_width));
   }
   return count;
 }
 
 std::vector<HardCheck> shaken(const Shaken& asked) {
-  Trial trial = filled(asked);
-  trial.add_stage(asked.steps * shaking_step, shaking_step);
-  trial.scene.stages.back().motions = {motion_of(asked)};
-  Simulation simulation = trial.start();
+  TestRun run(filled(asked));
   int out = 0;
-  const Watch watch = run_watched(simulation, [&](const Simulation& s) {
-    out = std::max(out, outside(s.state().bodies, pose_of(asked, s.state().time()), asked.periodic));
-  });
+  const Watch watch = run_watched(run, [&] { out = std::max(out, outside(run, asked)); });
   return {at_most("grains outside, worst step", 0, out, "walls hold what is in them"),
           at_most("grains reported lost", 0, watch.steps_lost, "none"),
           at_most("steps with NaN", 0, watch.steps_not_finite, "none")};
 }
 
 std::vector<HardCheck> too_far(const Shaken& asked) {
-  Trial trial = filled(asked);
-  trial.add_stage(asked.steps * shaking_step, shaking_step);
-  trial.scene.stages.back().motions = {motion_of(asked)};
-  Simulation simulation = trial.start();
+  TestScene still = filled(asked);  // a start would refuse the motion
+  still.stages[0].motions.clear();
+  TestRun run(filled(asked), Simulation(still).state());
   double told = 0;
-  while (!simulation.finished() && told == 0)
-    if (const auto lost = simulation.step().lost) told = lost->how == LostGrain::How::pushed_too_far ? 1 : -1;
+  while (!run.finished() && told == 0)
+    if (const auto lost = run.step().lost) told = lost->how == LostGrain::How::pushed_too_far ? 1 : -1;
   return {equals("says that a wall moves too far (1), another loss (-1)", 1, told, 0,
                  "a wall that moves by more than a radius can pass a grain unseen")};
 }
@@ -199,55 +185,37 @@ std::vector<HardCheck> too_far(const Shaken& asked) {
 
 /// In a turning drum at the default solver, whose sweeps do not suffice for masses of 1 to 125,000.
 std::vector<HardCheck> pressed_out(int grains, int steps) {
-  Scene scene;
-  scene.title = "hard case";
-  scene.grains.density_kg_m3 = 2700;
-  scene.grains.source = GeneratedGrains{grains, 0.2, 10, CircleRegion{{0, 0}, 129}, TwoSizes{0.95}};
-  scene.walls = {{"drum", ContainerShape{{0, 0}, 130}}};
-  scene.effects = {Gravity{}, Friction{0.4, 0.4}, Restitution{0.46, 0.46}, Spin{}};
-  scene.output.velocity_window_s = 0;
-  Stage stage;
-  stage.name = "settle", stage.duration_s = steps * 1e-3, stage.time_step_s = 1e-3;
-  scene.stages = {stage};
-  Simulation simulation(scene);
-  const Watch watch = run_watched(simulation);
+  TestRun run(scene_of(GeneratedGrains{grains, 0.2, 10, CircleRegion{{0, 0}, 129}, TwoSizes{0.95}})
+                  .between({drum_wall(130)})
+                  .with(Gravity{}, Friction{0.4, 0.4}, Restitution{0.46, 0.46}, Spin{})
+                  .lasting(steps * 1e-3 / time_s, 1e-3 / time_s));
+  const Watch watch = run_watched(run);
   return {at_most("grains reported lost", 0, watch.steps_lost, "none"),
           at_most("steps with NaN", 0, watch.steps_not_finite, "none")};
 }
 
 // A long chain.
 
+TestScene column(int discs, int steps, double h) {
+  return plain(column_of(discs), 0.4).between({floor_wall()}).with(Gravity{}).lasting(steps * h, h);
+}
+
 std::vector<HardCheck> column_height(int discs, int steps) {
-  const double h = 0.4;
-  Trial trial = with_default_solver();
-  for (int k = 0; k < discs; ++k) trial.discs.push_back({0, 0.5 + k});
-  trial.scene.walls = {trial_floor()};
-  trial.scene.effects.gravity = Gravity{};
-  rub(trial, 0.4);
-  trial.scene.solver.max_sweeps = 20000;
-  trial.add_stage(steps * h, h);
-  Simulation simulation = trial.start();
+  TestScene trial = column(discs, steps, 0.4);
+  trial.solver.max_sweeps = 20000;
+  TestRun run(trial);
   double sunk = 0;
-  run_watched(simulation,
-              [&](const Simulation& s) { sunk = larger(sunk, discs - 0.5 - s.state().bodies.z.back()); });
+  run_watched(run, [&] { sunk = larger(sunk, discs - 0.5 - run.bodies().z.back()); });
   return {at_most("height lost at worst, d", 0.02, sunk,
                   "a step lets discs sink by 1e-3 d on average, the top by twice that; ten times it")};
 }
 
 /// The scene that a user would write: discs of 10 mm, a step of 1 ms, and nothing said of the solver.
 std::vector<HardCheck> column_default(int discs, int steps) {
-  const double h = 1e-3 / std::sqrt(10e-3 / 9.81);
-  Trial trial = with_default_solver();
-  for (int k = 0; k < discs; ++k) trial.discs.push_back({0, 0.5 + k});
-  trial.scene.walls = {trial_floor()};
-  trial.scene.effects.gravity = Gravity{};
-  rub(trial, 0.4);
-  trial.scene.solver = SolverSettings{};
-  trial.add_stage(steps * h, h);
-  Simulation simulation = trial.start();
-  const Watch watch = run_watched(simulation);
+  TestRun run(column(discs, steps, 1e-3 / std::sqrt(10e-3 / 9.81)));
+  const Watch watch = run_watched(run);
   return {
-      at_most("height lost, d", 0.3, discs - 0.5 - simulation.state().bodies.z.back(),
+      at_most("height lost, d", 0.3, discs - 0.5 - run.bodies().z.back(),
               "a step sinks by 1e-3 d on average at most, the projection takes it away; 1e-3 a disc allowed"),
       at_most("largest overlap, d", 1e-2, watch.largest_overlap, "ten times the penetration tolerance"),
       at_most("steps that missed a tolerance", 0, watch.steps_missed, "5000 sweeps suffice")};
