@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "particles/bodies/disc_inertia.hpp"
+
 namespace drumlin::particles {
 
 double mass_of_disc(double radius) { return std::numbers::pi * radius * radius; }
@@ -35,7 +37,7 @@ double kinetic_energy(const Bodies& bodies) {
     double square = bodies.v_x[b] * bodies.v_x[b] + bodies.v_z[b] * bodies.v_z[b];
     if (!bodies.spin.empty()) {
       const double rim = bodies.radius[b] * bodies.spin[b];
-      square += rim * rim / 2;
+      square += disc_inertia * rim * rim;
     }
     energy += square / (2 * bodies.inverse_mass[b]);
   }

@@ -8,7 +8,7 @@
 namespace drumlin::particles {
 
 /// One entry per grain. The mass is that of the radius, m = pi r^2 (rho0 = 1, per unit depth), or that
-/// of a density of the grain's own; the moment of inertia is J = m r^2 / 2.
+/// of a density of the grain's own; the moment of inertia is that of disc_inertia.hpp.
 struct Bodies {
   std::vector<double> x, z;  ///< in a periodic domain not wrapped back: displacements stay meaningful
   std::vector<double> v_x, v_z;

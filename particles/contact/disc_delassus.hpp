@@ -24,7 +24,7 @@ struct BodyVelocity {
 };
 
 /// Contacts in solve order. Bodies: the grains, the fixed one that all other walls share, then the driven
-/// walls or the cell. For discs W_nt = 0 and W_tt = 3 W_nn with spin (J = m r^2 / 2), W_tt = W_nn without;
+/// walls or the cell. For discs W_nt = 0 and W_tt is tangential_gain times W_nn;
 /// only driven walls and a cell add to that. `dim` unknowns per contact.
 template <int dim_, bool with_spin>
 class DiscDelassus {
@@ -117,11 +117,11 @@ class DiscDelassus {
   /// W_aa.
   LocalBlock<dim> block(int a) const {
     const double w_i = inverse_mass[i[a]], w_j = inverse_mass[j[a]], w = w_i + w_j;
-    LocalMatrix W{w, 0, spin ? 3 * w : w};
+    LocalMatrix W{w, 0, tangential_gain<spin> * w};
     if constexpr (dim == 3) {
       const double l_i = lever[a], l_j = 1 - l_i;
-      W.tr = 2 * (l_j * w_j - l_i * w_i);
-      W.rr = 2 * (l_i * l_i * w_i + l_j * l_j * w_j);
+      W.tr = rim_gain * (l_j * w_j - l_i * w_i);
+      W.rr = rim_gain * (l_i * l_i * w_i + l_j * l_j * w_j);
     }
     if (cell) {
       const double x = arm_x[a] * arm_x[a] * cell->inverse_inertia_x,
@@ -140,7 +140,7 @@ class DiscDelassus {
 
   /// lambda_max(W_aa), the scale of the residual; of contacts without couples that push grains alone in parts
   /// of W_nn.
-  static constexpr double largest_in_W_nn = dim == 2 && spin ? 3 : 1;
+  static constexpr double largest_in_W_nn = tangential_gain < dim == 2 && spin > ;
   double largest_eigenvalue(int a) const {
     if (dim < 3 && !(coupled() && pushes_more(a))) return largest_in_W_nn / inverse_W_nn[a];
     return particles::largest_eigenvalue<dim>(block(a).matrix);

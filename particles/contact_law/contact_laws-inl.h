@@ -10,6 +10,8 @@
 #define DRUMLIN_CONTACT_LAWS
 #include <variant>
 
+#include "particles/bodies/disc_inertia.hpp"
+
 namespace drumlin::particles {
 
 struct Frictionless {

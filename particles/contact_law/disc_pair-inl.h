@@ -16,23 +16,22 @@ CONTACT_LAW std::array<N, 2> impulse_vector(const ContactFrame<N>& at, const std
   return {x, z};
 }
 
-/// What a couple R_eff r_r changes of the rims of i and j, per r_r; J = m r^2 / 2.
+/// What a couple R_eff r_r changes of the rims of i and j, per r_r.
 template <class N, class Disc>
 CONTACT_LAW std::array<N, 2> turns_of(N lever, const Disc& I, const Disc& J) {
-  return {(I.inverse_mass + I.inverse_mass) * lever,
-          (J.inverse_mass + J.inverse_mass) * (number<N>(1) - lever)};
+  return {number<N>(rim_gain) * I.inverse_mass * lever,
+          number<N>(rim_gain) * J.inverse_mass * (number<N>(1) - lever)};
 }
 
-/// Adds an impulse on i, and its opposite on j. `spin`: friction turns them, by r J^-1 (-r r_t) = -2 r_t / m
-/// both.
+/// Adds an impulse on i, and its opposite on j. `spin`: friction turns them, by r J^-1 (-r r_t) both.
 template <bool spin, std::size_t dim, class N, class Disc>
 CONTACT_LAW void push(const ContactFrame<N>& at, const std::array<N, dim>& r, Disc& I, Disc& J) {
   const auto p = impulse_vector(at, r);
   I.x = I.x + I.inverse_mass * p[0], I.z = I.z + I.inverse_mass * p[1];
   J.x = J.x - J.inverse_mass * p[0], J.z = J.z - J.inverse_mass * p[1];
   if constexpr (spin && dim >= 2) {
-    const N twice = r[1] + r[1];
-    I.s = I.s - I.inverse_mass * twice, J.s = J.s - J.inverse_mass * twice;
+    const N turns = number<N>(rim_gain) * r[1];
+    I.s = I.s - I.inverse_mass * turns, J.s = J.s - J.inverse_mass * turns;
   }
   if constexpr (dim == 3) {
     const auto turns = turns_of(at.lever, I, J);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "particles/bodies/disc_inertia.hpp"
+
 namespace drumlin::particles {
 namespace {
 
@@ -50,7 +52,8 @@ double DragLaw::work(const Bodies& before, const Bodies& now, double time_step) 
       return (w - v - (w - keeps * v) / decay.force) * (v + w) / 2;
     };
     double work = of(before.v_x[b], now.v_x[b], decay.keeps) + of(before.v_z[b], now.v_z[b], decay.keeps);
-    if (!now.spin.empty()) work += r * r / 2 * of(before.spin[b], now.spin[b], std::exp(-spin_rate * x));
+    if (!now.spin.empty())
+      work += disc_inertia * r * r * of(before.spin[b], now.spin[b], std::exp(-spin_rate * x));
     sum += work / now.inverse_mass[b];
   }
   return sum;

@@ -82,12 +82,12 @@ struct Three {
   V a, b, c;
 };
 
-/// Of m v . w + J omega omega' with J = m r^2 / 2 and s = r omega.
+/// Of m v . w + J omega omega' with s = r omega.
 template <class T, class V>
 HWY_INLINE V energy(V mass, const BodyVectors<T>& v, const BodyVectors<T>& w) {
-  const V half = hn::Set(Lanes<T>(), T(0.5));
+  const V inertia = hn::Set(Lanes<T>(), T(disc_inertia));
   const V sum = hn::Add(hn::Mul(v.x, w.x), hn::Mul(v.z, w.z));
-  return hn::Mul(mass, hn::Add(sum, hn::Mul(half, hn::Mul(v.s, w.s))));
+  return hn::Mul(mass, hn::Add(sum, hn::Mul(inertia, hn::Mul(v.s, w.s))));
 }
 
 template <class T>

@@ -98,7 +98,7 @@ HWY_INLINE auto inverse_block(const ContactBlock<T, Law>& block, std::size_t k, 
   const Lanes<T> d;
   contact_law::InverseBlock<hn::Vec<Lanes<T>>, Law::unknowns> W;
   W.nn = hn::Load(d, &block.inverse_W_nn[k]);
-  if constexpr (Law::unknowns >= 2) W.tt = W.nn * hn::Set(d, spin ? T(1) / T(3) : T(1));
+  if constexpr (Law::unknowns >= 2) W.tt = W.nn * hn::Set(d, T(1) / T(tangential_gain<spin>));
   if constexpr (Law::unknowns == 3) {
     const auto turns = contact_law::turns_of(hn::Load(d, &block.lever[k]), I, J);
     W.rr = hn::Load(d, &block.inverse_W_rr[k]), W.tr = turns[1] - turns[0];
@@ -211,13 +211,14 @@ double sweep(ContactBlock<T, Law>* blocks, std::span<const std::int32_t> groups,
   return sweep<T, Law, spin, rounded>(blocks, groups, bodies, beta);
 }
 
-/// 1 / lambda_max(W_aa) of contacts: of discs that turn W_nn is below W_tt = 3 W_nn.
+/// 1 / lambda_max(W_aa) of contacts: of discs that turn W_nn is below W_tt.
 template <class T, class Law, bool spin>
 HWY_INLINE auto inverse_eigenvalue(const ContactBlock<T, Law>& block, std::size_t k, const BodyVectors<T>& I,
                                    const BodyVectors<T>& J) {
   const Lanes<T> d;
   if constexpr (Law::unknowns < 3) {
-    return hn::Load(d, &block.inverse_W_nn[k]) * hn::Set(d, Law::unknowns == 2 && spin ? T(1) / T(3) : T(1));
+    return hn::Load(d, &block.inverse_W_nn[k]) *
+           hn::Set(d, T(1) / T(tangential_gain < Law::unknowns == 2 && spin >));
   } else {
     const auto w = I.inverse_mass + J.inverse_mass, lever = hn::Load(d, &block.lever[k]);
     const auto turns = contact_law::turns_of(lever, I, J);

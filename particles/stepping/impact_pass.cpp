@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "particles/bodies/disc_inertia.hpp"
 #include "particles/contact_law/laws.hpp"
 
 namespace drumlin::particles {
@@ -25,7 +26,7 @@ void move(ImpactBody& body, double p_x, double p_z, double tangential) {
     p_x *= body.inverse_mass, p_z *= body.inverse_mass;
   }
   body.v_x += p_x, body.v_z += p_z;
-  if (body.spins) body.rim -= 2 * body.inverse_mass * tangential;  // r J^-1 (-r r_t) = -2 r_t / m
+  if (body.spins) body.rim -= rim_gain * body.inverse_mass * tangential;
 }
 
 }  // namespace
@@ -48,7 +49,7 @@ void ImpactPass::add(ImpactContact c) {
     spins = spins || J.spins;
     if (J.along.x == 0 && J.along.z == 0) c.W_nn += J.inverse_mass, c.W_tt += J.inverse_mass;
   }
-  if (spins) c.W_tt *= 3;
+  if (spins) c.W_tt *= tangential_gain<true>;
   if (c.j >= 0) {
     const ImpactBody& J = bodies[c.j];
     const double n = J.along.x * c.n_x + J.along.z * c.n_z, t = J.along.x * c.n_z - J.along.z * c.n_x;

@@ -15,7 +15,7 @@ struct ImpactBody {
   double v_x = 0, v_z = 0;  ///< velocity; of a wall, along its direction alone
   double rim = 0;           ///< radius times spin
   double inverse_mass = 0;
-  bool spins = false;  ///< turned by friction, with J = m r^2 / 2
+  bool spins = false;  ///< turned by friction
   Point along;         ///< unit direction in which alone a wall moves; zero: a grain
   double before_x = 0, before_z = 0, before_rim = 0;  ///< velocities at the beginning of the pass
   PathShift shift;                                    ///< of a grain

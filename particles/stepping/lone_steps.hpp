@@ -42,7 +42,7 @@ void take_lone_steps(const StepInput& step, const ContactMemory& memory, StepSta
       pair.wall_v_x = lone->wall_velocity.x, pair.wall_v_z = lone->wall_velocity.z;
     }
     change.x = w * (pair.n_x * r_n + pair.n_z * r_t), change.z = w * (pair.n_z * r_n - pair.n_x * r_t);
-    if constexpr (StepState<Problem>::spin) change.s = -2 * w * r_t;
+    if constexpr (StepState<Problem>::spin) change.s = -rim_gain * w * r_t;
     if (r_n > 0) s.lone.push_back({pair.i, lone->end});
   }
 }
