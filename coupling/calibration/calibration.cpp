@@ -126,22 +126,6 @@ void assess(Calibration& calibration) {
   calibration.ill_posed = ill_posed_intervals(calibration.rheology);
 }
 
-void add_laws_of_the_bed(Calibration& calibration) {
-  const CalibratedLaw amount = amount_law(calibration.runs, calibration.options.draws);
-  if (calibration.options.memory) {
-    calibration.memory = memory_calibration(calibration.runs, calibration.held_out, amount,
-                                            calibration.options.amount_own_weight);
-    calibration.rheology.memory = measured_memory(*calibration.memory);
-  }
-  if (calibration.options.nonlocal) {
-    std::vector<FluidityOfRun> runs;
-    for (const RunEvidence& run : calibration.runs)
-      runs.push_back({run.name, fluidity_points(PathFields(*run.map))});
-    calibration.nonlocal = fit_nonlocal(runs, amount.curve());
-    if (calibration.nonlocal->is_told()) calibration.rheology.nonlocal = calibration.nonlocal->law;
-  }
-}
-
 }  // namespace
 
 std::vector<FrictionPoint> friction_of(const RunEvidence& run, const Calibration& calibration) {
@@ -181,7 +165,6 @@ Calibration calibration_of(std::vector<RunEvidence> runs, std::vector<RunEvidenc
   require_growth(calibration.law());
   calibration.rheology = rheology_of(calibration);
   assess(calibration);
-  if (options.memory || options.nonlocal) add_laws_of_the_bed(calibration);
   return calibration;
 }
 

@@ -5,8 +5,6 @@
 #include <vector>
 
 #include "coupling/calibration/law_score.hpp"
-#include "coupling/calibration/memory_calibration.hpp"
-#include "coupling/calibration/nonlocal_fit.hpp"
 #include "coupling/calibration/one_law.hpp"
 #include "coupling/calibration/run_evidence.hpp"
 #include "coupling/core/law/ill_posed.hpp"
@@ -18,11 +16,7 @@ struct CalibrationOptions {
   std::optional<FormKind> form = {};  ///< of mu; absent: a table where there are points enough, else log
   bool k = false;                     ///< k(I) is a part of the law
   bool turn = false;                  ///< the turn of the stress is fitted although it is no part of the law
-  bool memory = false;                ///< needs the maps and amount_blocks of the runs
   int draws = 200;
-  bool nonlocal = false;  ///< needs the maps and amount_blocks of the runs
-  /// With `memory`: what is added to the amount of the stress is fitted, with this AmountMemory::own_weight.
-  std::optional<double> amount_own_weight = {};
   std::function<void()> before_each_draw = {};  ///< of mu; may throw to end a long fit
 };
 
@@ -32,13 +26,11 @@ struct Calibration {
   std::vector<RunEvidence> held_out;
   std::vector<CalibratedLaw> forms;  ///< every form that the points allow, one of them chosen
   std::size_t chosen = 0;
-  std::optional<CalibratedLaw> turn;        ///< FormKind::turn of maps, FormKind::stress_ratio of profiles
-  std::vector<LawScore> scores;             ///< per run of the fit
-  std::vector<LawScore> predictions;        ///< per run held out
-  std::optional<OneLaw> one_law;            ///< with two speeds at least
-  std::optional<MemoryCalibration> memory;  ///< where it is asked for
-  std::optional<NonlocalFit> nonlocal;      ///< where it is asked for
-  std::vector<InertialRange> ill_posed;     ///< within 1e-6 ... 1, in simple shear
+  std::optional<CalibratedLaw> turn;     ///< FormKind::turn of maps, FormKind::stress_ratio of profiles
+  std::vector<LawScore> scores;          ///< per run of the fit
+  std::vector<LawScore> predictions;     ///< per run held out
+  std::optional<OneLaw> one_law;         ///< with two speeds at least
+  std::vector<InertialRange> ill_posed;  ///< within 1e-6 ... 1, in simple shear
   RheologyFit rheology;
 
   const CalibratedLaw& law() const { return forms[chosen]; }

@@ -1,11 +1,8 @@
 #include "coupling/calibration/run_evidence.hpp"
 
-#include <utility>
-
 namespace drumlin::coupling {
 namespace {
 
-constexpr double least_amount_I = 3e-6;
 constexpr double bulk_margin = 4;  // that of the means over a bulk in measured.json
 
 template <class Selection>
@@ -18,17 +15,8 @@ Selection within(const InertialSelection& range) {
 
 }  // namespace
 
-void add_blocks(RunEvidence& run, FieldMap map, const InertialSelection& range) {
+void add_blocks(RunEvidence& run, const FieldMap& map, const InertialSelection& range) {
   run.blocks = law_points(map, within<BlockSelection>(range));
-  run.map = std::move(map);
-}
-
-void add_amount_blocks(RunEvidence& run, const InertialSelection& range) {
-  BlockSelection selection;
-  selection.I_min = range.I_min.value_or(least_amount_I);
-  selection.I_max = range.I_max.value_or(selection.I_max);
-  selection.displacements = true;
-  run.amount_blocks = law_points(*run.map, selection);
 }
 
 void add_layers(RunEvidence& run, const ProfileSet& profiles, const InertialSelection& range) {

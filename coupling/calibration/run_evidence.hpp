@@ -20,14 +20,12 @@ constexpr auto names_of(EvidenceSource) { return std::array{"maps", "profiles"};
 struct RunEvidence {
   std::string name;
   double rotation_rpm = 0;
-  Scalar nu{"nu_bulk", std::nan(""), {}};    ///< volume fraction of the bulk; of runs that are fitted
-  bool reduced = false;                      ///< a small (smoke) run
-  std::vector<LawBlock> blocks = {};         ///< of maps; empty when profiles are the source
-  std::vector<FrictionPoint> layers = {};    ///< of profiles: mu, I
-  std::vector<FrictionPoint> ratios = {};    ///< of profiles: k in the place of mu, I
-  std::vector<LawBlock> amount_blocks = {};  ///< of maps, to smaller I: where memory is asked for
-  std::optional<FieldMap> map = {};          ///< where a law of the bed is asked for
-  bool in_layers = false;                    ///< a shear cell or a chute: its layers share one I, nearly
+  Scalar nu{"nu_bulk", std::nan(""), {}};  ///< volume fraction of the bulk; of runs that are fitted
+  bool reduced = false;                    ///< a small (smoke) run
+  std::vector<LawBlock> blocks = {};       ///< of maps; empty when profiles are the source
+  std::vector<FrictionPoint> layers = {};  ///< of profiles: mu, I
+  std::vector<FrictionPoint> ratios = {};  ///< of profiles: k in the place of mu, I
+  bool in_layers = false;                  ///< a shear cell or a chute: its layers share one I, nearly
 };
 
 /// Range of inertial numbers that points are taken from; absent: that of BlockSelection or LayerSelection.
@@ -35,12 +33,8 @@ struct InertialSelection {
   std::optional<double> I_min, I_max;
 };
 
-/// Blocks of a map (law_points()); the map is kept. Throws InputError as law_points().
-void add_blocks(RunEvidence& run, FieldMap map, const InertialSelection& range);
-
-/// Blocks for the amount of the stress, of the map that add_blocks() kept: from I = 3e-6 on (unless the range
-/// says otherwise), with the motion of displacements where the map has it.
-void add_amount_blocks(RunEvidence& run, const InertialSelection& range);
+/// Blocks of a map (law_points()). Throws InputError as law_points().
+void add_blocks(RunEvidence& run, const FieldMap& map, const InertialSelection& range);
 
 /// Layers of a profile (friction_points()) with mu and with k. Without a drum: 4 d from wall and surface,
 /// which may be a wall too, and up to I = 1. Throws InputError where a column is missing.

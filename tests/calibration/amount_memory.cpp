@@ -1,13 +1,9 @@
-// What past strain adds to the amount of the stress: its closed forms, and its recovery from paths that obey
-// it.
-#include "coupling/calibration/amount_memory.hpp"
-
+// What past strain adds to the amount of the stress: closed forms. The fit: tests/python/test_bed.py.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "coupling/core/basics/errors.hpp"
 #include "coupling/core/law/memory_law.hpp"
 #include "remembering_drum.hpp"
 
@@ -29,16 +25,25 @@ const MemoryLaw law{.c = 6,
                                            .lag = 0.05,
                                            .creep = Creep{.slope = 0.015, .ratio = 0.05}}};
 
+/// The dilatancy at the end of a path, of which Python takes the same two means.
+double felt_dilatancy(const StressPath& path) {
+  const auto& [swelling, c_nu, c_psi, lag, creep, own_weight] = *law.amount;
+  const auto remembered = [&](double c) { return carried_ln_I(path, c, std::log(1e-6), 0); };
+  return swelling * c_nu * c_psi / (c_psi - c_nu) * (remembered(c_psi) - remembered(c_nu));
+}
+
 TEST(AmountMemory, AddsNothingInSteadySimpleShear) {
-  for (const double I : {1e-5, 1e-3, 0.03, 0.5})
-    EXPECT_NEAR(added_amount(steady_shear(400, 0.01, std::log(I)), law), 0, 1e-12) << I;
+  for (const double I : {1e-5, 1e-3, 0.03, 0.5}) {
+    const StressPath path = steady_shear(400, 0.01, std::log(I));
+    EXPECT_NEAR(felt_dilatancy(path), 0, 1e-12) << I;
+    EXPECT_NEAR(carried_lag(path, known_memory), 0, 1e-12) << I;
+    EXPECT_EQ(carried_dilatancy(path, 4), 0) << I;
+  }
 }
 
 TEST(AmountMemory, SwellsAndForgetsWhereTheShearIsSuddenlyFaster) {
   // nu follows with c_nu, the dilatancy that is felt with c_psi: a difference of two exponentials.
   const double from = std::log(1e-4), to = std::log(1e-2), strain = 0.07;
-  MemoryLaw swelling = law;
-  swelling.amount->lag = 0;
   for (const std::size_t pieces : {1U, 50U}) {
     StressPath path = steady_shear(400, 0.01, from);
     for (std::size_t k = 0; k < pieces; ++k)
@@ -47,7 +52,7 @@ TEST(AmountMemory, SwellsAndForgetsWhereTheShearIsSuddenlyFaster) {
     const double c_nu = 4, c_psi = 16;
     const double expected = 0.008 * c_nu * c_psi / (c_psi - c_nu) * (to - from) *
                             (std::exp(-2 * c_nu * strain) - std::exp(-2 * c_psi * strain));
-    EXPECT_NEAR(added_amount(path, swelling), expected, 1e-12);
+    EXPECT_NEAR(felt_dilatancy(path), expected, 1e-12);
     EXPECT_GT(expected, 0);
   }
 }
@@ -55,8 +60,6 @@ TEST(AmountMemory, SwellsAndForgetsWhereTheShearIsSuddenlyFaster) {
 TEST(AmountMemory, IsTheStepwiseSolutionOfItsTwoEquations) {
   // Euler's steps of the equations that a flow solves, with an I that rises and falls.
   const AmountMemory& amount = *law.amount;
-  MemoryLaw swelling = law;
-  swelling.amount->lag = 0;
   StressPath path = steady_shear(1, 0, std::log(1e-3));
   const double strain = 1e-4;
   double L = std::log(1e-3), psi = 0;
@@ -67,7 +70,7 @@ TEST(AmountMemory, IsTheStepwiseSolutionOfItsTwoEquations) {
     psi += 2 * amount.c_psi * strain * (target - psi);
     L += 2 * amount.c_nu * strain * (ln_I - L);
   }
-  EXPECT_NEAR(added_amount(path, swelling), psi, 2e-4);
+  EXPECT_NEAR(felt_dilatancy(path), psi, 2e-4);
   EXPECT_GT(std::abs(psi), 0.01);
 }
 
@@ -96,52 +99,6 @@ TEST(AmountMemory, CreepTakesOffWhatLittleShearPerTurnLacks) {
   EXPECT_NEAR(creep_friction(creep, 0.05, -10), creep_friction(creep, 0.005, -1), 1e-15);
 }
 
-/// Paths of a drum whose amount is that of `law`.
-PathsOfRun remembering_paths(double surface_speed, double own_weight = 0) {
-  const FieldMap map = remembering_drum({.surface_speed = surface_speed});
-  PathsOfRun run{"drum", stress_paths(PathFields(map, {.smoothing = 0.3})), {}};
-  add_own_weight(run.paths, own_weight);
-  for (StressPath& path : run.paths) {
-    path.stress = Deviator(known_amount(std::exp(path.ln_I)) + added_amount(path, law), 0);
-    run.amounts.push_back(known_amount(std::exp(path.ln_I)));
-  }
-  return run;
-}
-
-CalibratedLaw without_memory(const PathsOfRun& run) {
-  std::vector<FrictionPoint> points;
-  std::vector<double> I;
-  for (const StressPath& path : run.paths) {
-    points.push_back({.I = std::exp(path.ln_I), .mu = std::abs(path.stress)});
-    I.push_back(points.back().I);
-  }
-  return calibrated({points}, {.kind = FormKind::table, .knots = table_knots(I)}, 0);
-}
-
-class AmountFitOf : public ::testing::TestWithParam<double> {};
-
-TEST_P(AmountFitOf, KnownCoefficientsComeBackAndPredictAnotherSpeed) {
-  const double own_weight = GetParam();
-  const PathsOfRun run = remembering_paths(1.5, own_weight), other = remembering_paths(2.5, own_weight);
-  const CalibratedLaw alone = without_memory(run);
-  MemoryLaw axes = law;
-  axes.amount.reset();
-  const AmountFit fit = fit_amount({&run, 1}, {&other, 1}, axes, alone, own_weight);
-  EXPECT_EQ(fit.law.own_weight, own_weight);
-  EXPECT_EQ(fit.law.c_nu, 4);
-  EXPECT_EQ(fit.law.c_psi, 16);
-  EXPECT_NEAR(fit.law.swelling, 0.008, 2e-4);
-  EXPECT_NEAR(fit.law.lag, 0.05, 2e-3);
-  ASSERT_TRUE(fit.law.creep);
-  EXPECT_EQ(fit.law.creep->ratio, 0.05);
-  EXPECT_NEAR(fit.law.creep->slope, 0.015, 1e-3);
-  EXPECT_NEAR(fit.table.curve().at(1e-4).value, known_amount(1e-4), 1e-3);
-  ASSERT_EQ(fit.predictions.size(), 1U);
-  EXPECT_LT(fit.predictions[0].bed, 0.2 * fit.predictions[0].bed_alone);
-  EXPECT_LT(fit.predictions[0].flow, 0.2 * fit.predictions[0].flow_alone);
-}
-INSTANTIATE_TEST_SUITE_P(OwnWeight, AmountFitOf, ::testing::Values(0.0, 3.0));
-
 TEST(AmountMemory, OwnWeightEntersIAndTheEndOfTheTable) {
   MemoryLaw weighed = law;
   weighed.amount->own_weight = 4;
@@ -162,17 +119,6 @@ TEST(StressPaths, OwnWeightLessensIWhereThePressureIsSmall) {
     const PathStep &before = plain[i].steps.front(), &after = weighed[i].steps.front();
     EXPECT_NEAR(std::exp(2 * (after.ln_I - before.ln_I)), before.p / (before.p + 2), 1e-12);
   }
-}
-
-TEST(AmountFit, FindsNothingWhereTheAmountFollowsI) {
-  PathsOfRun run = remembering_paths(1.5);
-  for (std::size_t i = 0; i < run.paths.size(); ++i) run.paths[i].stress = run.amounts[i];
-  MemoryLaw axes = law;
-  axes.amount.reset();
-  const AmountFit fit = fit_amount({&run, 1}, {}, axes, without_memory(run));
-  EXPECT_NEAR(fit.law.swelling, 0, 1e-4);
-  EXPECT_LT(fit.law.creep.value_or(Creep{}).slope, 1e-3);
-  EXPECT_NEAR(fit.law.lag, 0, 1e-3);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/calibration/memory_fit.hpp"
+#include "coupling/calibration/axis_memory.hpp"
 
 namespace drumlin::testing {
 

@@ -8,7 +8,7 @@
 
 #include "apps/commands/calibrate/calibration_json.hpp"
 #include "apps/commands/calibrate/evidence.hpp"
-#include "apps/commands/calibrate/nonlocal_json.hpp"
+#include "apps/json/described.hpp"
 #include "apps/json/json_file.hpp"
 #include "apps/output/commands.hpp"
 #include "apps/output/figures.hpp"
@@ -24,6 +24,7 @@ namespace drumlin::apps {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 fs::path beside(const fs::path& file, const char* extension) {
   fs::path other = file;
@@ -80,90 +81,28 @@ std::string one_law_text(const coupling::Calibration& calibration) {
       one.largest_ratio);
 }
 
-std::string interval_text(double value, const coupling::MemoryFit& fit, std::size_t j) {
-  if (!fit.free[j]) return fmt::format("{:.2f} (held)", value);
-  return fmt::format(
-      "{:.2f} +- {:.2f} (over sectors{})", value, fit.ci99_sectors[j],
-      std::isfinite(fit.ci99_runs[j]) ? fmt::format(", +- {:.2f} over runs", fit.ci99_runs[j]) : "");
-}
-
-std::string fit_text(const char* what, const coupling::MemoryFit& fit) {
-  return fmt::format("  {}: c = {}, m = {}, chi = {}; rms of s/p {:.4f} over {} paths\n", what,
-                     interval_text(fit.law.c, fit, coupling::memory_c),
-                     interval_text(fit.law.m, fit, coupling::memory_m),
-                     interval_text(fit.law.chi, fit, coupling::memory_chi), fit.rms, fit.paths);
-}
-
-std::string memory_scores_text(const char* what, const std::vector<coupling::MemoryScore>& scores) {
-  std::string text;
-  for (const coupling::MemoryScore& score : scores)
-    text += fmt::format(
-        "  {} {}: axes {:.1f} deg off in the bed, {:.1f} in the flow (without memory {:.1f}, {:.1f}); s/p "
-        "{:.4f}, {:.4f}\n",
-        what, score.run, score.bed.axes_deg, score.flow.axes_deg, score.bed.axes_deg_without_memory,
-        score.flow.axes_deg_without_memory, score.bed.rms, score.flow.rms);
-  return text;
-}
-
-std::string amount_scores_text(const char* what, const std::vector<coupling::AmountScore>& scores) {
-  std::string text;
-  for (const coupling::AmountScore& score : scores)
-    text +=
-        fmt::format("  {} {}: |s|/p {:.4f} off in the bed, {:.4f} in the flow (mu(I) alone {:.4f}, {:.4f})\n",
-                    what, score.run, score.bed, score.flow, score.bed_alone, score.flow_alone);
-  return text;
-}
-
-std::string amount_text(const coupling::AmountFit& fit) {
-  const std::string own =
-      fit.measured
-          ? fmt::format("with the particles' own dilatancy, c_psi = {:g}, times {:.2f} +- {:.2f}",
-                        fit.measured->c_psi, fit.measured->coefficient, fit.measured->coefficient_ci99)
-          : "the particles show no dilatancy of their own to compare it with";
-  const std::string creep =
-      fit.law.creep ? fmt::format(", creep {:.4f} +- {:.4f} per ln(|D|/|W|) below {:g}", fit.law.creep->slope,
-                                  fit.ci99_sectors[coupling::amount_creep], fit.law.creep->ratio)
-                    : "";
-  return fmt::format(
-             "  the amount: swelling {:.4f} +- {:.4f} per ln I, c_nu = {:g}, c_psi = {:g}, lag {:.3f} +- "
-             "{:.3f}{}; {}\n",
-             fit.law.swelling, fit.ci99_sectors[coupling::amount_swelling], fit.law.c_nu, fit.law.c_psi,
-             fit.law.lag, fit.ci99_sectors[coupling::amount_lag], creep, own) +
-         amount_scores_text("fitted", fit.scores) + amount_scores_text("predicted", fit.predictions);
-}
-
-std::string memory_text(const coupling::Calibration& calibration) {
-  if (!calibration.memory) return "";
-  const coupling::MemoryCalibration& found = *calibration.memory;
-  std::string text = fmt::format(
-      "memory of the axes\n  |s|/p: a table of {} points, I from {:.1e} to {:.1e}, rms {:.4f}",
-      found.amount.fit.points, found.amount.I_min, found.amount.I_max, found.amount.fit.rms_misfit);
-  if (found.bed_line)
-    text += fmt::format("; below I = {:g} {:.3f} + {:.4f} ln I, rms {:.4f}", coupling::bed_I,
-                        found.bed_line->law[0], found.bed_line->law[1], found.bed_line->rms_misfit);
-  text += "\n" + fit_text("the bed alone, chi at every I", found.bed_alone) +
-          fit_text("bed and flow", found.free);
-  if (!found.bounded.free[coupling::memory_m]) text += fit_text("m held", found.bounded);
-  text += fmt::format(
-      "  the law: c = {:.2f}, m = {:.2f}, chi = {:.2f} below I = {:g}, atan(1/c) above {:g}, c_rho = {:g}\n",
-      found.law.c, found.law.m, found.law.chi, found.law.I_low, found.law.I_high, *found.law.c_rho);
-  text += memory_scores_text("fitted", found.scores) + memory_scores_text("predicted", found.predictions);
-  if (found.remembered) text += amount_text(*found.remembered);
-  text += "  what the runs cannot tell\n";
-  for (const std::string& sentence : found.untold) text += "  - " + sentence + "\n";
-  return text;
-}
-
 coupling::CalibrationOptions settings_of(const CalibrateOptions& options, coupling::EvidenceSource source) {
-  coupling::CalibrationOptions settings{.source = source,
-                                        .k = options.k,
-                                        .turn = options.misalignment,
-                                        .memory = options.memory,
-                                        .draws = options.draws,
-                                        .nonlocal = options.nonlocal};
-  if (options.amount) settings.amount_own_weight = options.own_weight;
+  coupling::CalibrationOptions settings{
+      .source = source, .k = options.k, .turn = options.misalignment, .draws = options.draws};
   if (options.law != "auto") settings.form = coupling::form_named(options.law);
   return settings;
+}
+
+/// The laws of the bed, which Python fits to the maps of the runs, the first `fitted` of them: "tables" of
+/// the law, keys of its "record", and what is "said".
+Json laws_of_the_bed(const CalibrateOptions& options, const std::vector<MeasuredRun>& runs,
+                     std::size_t fitted) {
+  const Json asked{{"fitted", fitted},
+                   {"draws", options.draws},
+                   {"memory", options.memory},
+                   {"nonlocal", options.nonlocal},
+                   {"own_weight", options.amount ? Json(options.own_weight) : Json()},
+                   {"I_min", options.I_min},
+                   {"I_max", options.I_max}};
+  std::vector<std::string> words{asked.dump()};
+  for (const MeasuredRun& run : runs)
+    words.insert(words.end(), {run.name, (run.folder / "measured" / "maps.h5").string()});
+  return Json::parse(study_by_script("../bed/command.py", words));
 }
 
 /// A run that counts twice makes intervals too small; one that is fitted predicts nothing.
@@ -203,7 +142,7 @@ void refuse_files_of_others(const CalibrateOptions& options) {
 }
 
 std::string asked_for(const CalibrateOptions& options) {
-  nlohmann::ordered_json inputs = nlohmann::ordered_json::array(), held_out = inputs;
+  Json inputs = Json::array(), held_out = inputs;
   for (const fs::path& run : options.runs) inputs.push_back(measured_run_sum(run));
   for (const fs::path& run : options.validate) held_out.push_back(measured_run_sum(run));
   return asked_sum({inputs, held_out, options.from, options.law, options.I_min.value_or(0),
@@ -241,10 +180,17 @@ int calibrate(const CalibrateOptions& options) {
   std::vector<MeasuredRun> all = std::move(fitted.runs);
   all.insert(all.end(), held_out.runs.begin(), held_out.runs.end());
   require_same_units(all);
-  const coupling::Calibration calibration = coupling::calibration_of(
+  coupling::Calibration calibration = coupling::calibration_of(
       std::move(fitted.evidence), std::move(held_out.evidence), settings_of(options, source));
+  Json bed;
+  if (options.memory || options.nonlocal) {
+    bed = laws_of_the_bed(options, all, options.runs.size());
+    calibration.rheology = parse_rheology(rheology_text(calibration.rheology) + bed.value("tables", ""),
+                                          options.output.string());
+  }
   const FolderLock lock = prepare_output_file(options.output, options.existing);
-  nlohmann::ordered_json content = calibration_json(calibration, all);
+  Json content = calibration_json(calibration, all);
+  if (!bed.is_null()) content.update(bed["record"]);
   content["asked"] = asked_for(options);
   write_json(record, content);
   draw_figures("calibrate_figures.py", {record.string(), beside(options.output, ".png").string()});
@@ -258,11 +204,10 @@ int calibrate(const CalibrateOptions& options) {
       described(calibration.rheology.mu), law.fit.points,
       source == coupling::EvidenceSource::maps ? "the tensors of maps.h5" : "the layers of profiles.csv",
       law.I_min, law.I_max, calibration.rheology.nu));
-  print_out(fmt::format("{}{}{}{}{}{}", forms_text(calibration), posedness_text(calibration),
+  print_out(fmt::format("{}{}{}{}{}", forms_text(calibration), posedness_text(calibration),
                         score_text("fitted", calibration.scores),
-                        score_text("predicted", calibration.predictions), one_law_text(calibration),
-                        memory_text(calibration)));
-  if (calibration.nonlocal) print_out(nonlocal_text(*calibration.nonlocal));
+                        score_text("predicted", calibration.predictions), one_law_text(calibration)));
+  if (!bed.is_null()) print_out(bed.value("said", ""));
   constexpr int fewest = 199;  // one of them beyond each end of 99 %
   if (options.draws < fewest)
     print_out(fmt::format("  warning: the 99 % band lies beyond {} draws and is too narrow; {} hold it\n",

@@ -4,8 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/calibrate/law_json.hpp"
-#include "apps/commands/calibrate/memory_json.hpp"
-#include "apps/commands/calibrate/nonlocal_json.hpp"
 #include "apps/json/json_file.hpp"
 #include "coupling/core/statistics/straight_line.hpp"
 
@@ -118,8 +116,6 @@ Json calibration_json(const coupling::Calibration& calibration, const std::vecto
   json["runs"] = calibration.scores;
   json["held_out"] = calibration.predictions;
   json["one_law"] = calibration.one_law;
-  if (calibration.memory) json["memory"] = memory_json(*calibration.memory, calibration.runs);
-  if (calibration.nonlocal) json["nonlocal"] = nonlocal_json(*calibration.nonlocal);
   if (const Json fractions = volume_fractions(calibration.runs); !fractions.is_null())
     json["volume_fraction"] = fractions;
   json["unsteady"] = Json::array();

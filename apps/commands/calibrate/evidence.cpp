@@ -47,12 +47,9 @@ coupling::RunEvidence evidence_of(const MeasuredRun& run, coupling::EvidenceSour
     coupling::add_layers(evidence, run.profiles, range);
     return evidence;
   }
-  FieldMap map = read_field_map(checked_file(run.measured_files, "maps.h5"));
+  const FieldMap map = read_field_map(checked_file(run.measured_files, "maps.h5"));
   require_same_frame(map, run);
-  coupling::add_blocks(evidence, std::move(map), range);
-  const bool of_the_bed = options.memory || options.nonlocal;
-  if (of_the_bed) coupling::add_amount_blocks(evidence, range);
-  if (!of_the_bed) evidence.map.reset();
+  coupling::add_blocks(evidence, map, range);
   return evidence;
 }
 
