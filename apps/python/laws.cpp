@@ -11,7 +11,7 @@
 #include "apps/python/others_run.hpp"
 #include "coupling/calibration/calibration.hpp"
 #include "coupling/core/basics/errors.hpp"
-#include "coupling/core/law/friction_law.hpp"
+#include "coupling/core/law/law_curve.hpp"
 #include "coupling/core/law/rheology_file.hpp"
 
 namespace py = pybind11;
@@ -34,19 +34,19 @@ py::array_t<double> over(const Numbers& I, const Function& value) {
 
 using Run = std::array<Numbers, 4>;  // I, mu and their standard errors
 
-coupling::RunEvidence evidence_of(const std::string& name, const Run& arrays, double nu) {
+std::vector<coupling::FrictionPoint> points_of(const std::string& name, const Run& arrays) {
   for (const Numbers& numbers : arrays)
     if (numbers.size() != arrays[0].size())
       throw InputError(name + ": I, mu and their errors are not of one length");
-  coupling::RunEvidence run{.name = name, .nu = {"nu_bulk", nu, {}}};
+  std::vector<coupling::FrictionPoint> points;
   for (py::ssize_t k = 0; k < arrays[0].size(); ++k) {
     const coupling::FrictionPoint point{arrays[0].data()[k], arrays[1].data()[k], arrays[2].data()[k],
                                         arrays[3].data()[k]};
     if (!(point.I > 0 && std::isfinite(point.I) && std::isfinite(point.mu)))
       throw InputError(name + ": point " + std::to_string(k) + " has no I above 0, or no mu");
-    run.layers.push_back(point);
+    points.push_back(point);
   }
-  return run;
+  return points;
 }
 
 constexpr int most_draws = 10000;  // as `drumlin calibrate` takes them
@@ -57,7 +57,9 @@ coupling::Calibration calibrated(const std::vector<Run>& arrays, const std::vect
   if (draws < 20 || draws > most_draws)
     throw InputError(fmt::format("draws: {} (allowed: 20 to {})", draws, most_draws));
   std::vector<coupling::RunEvidence> runs;
-  for (std::size_t k = 0; k < arrays.size(); ++k) runs.push_back(evidence_of(names.at(k), arrays[k], nu));
+  for (std::size_t k = 0; k < arrays.size(); ++k)
+    runs.push_back(
+        {.name = names.at(k), .nu = {"nu_bulk", nu, {}}, .layers = points_of(names.at(k), arrays[k])});
   if (runs.empty()) throw InputError("no points");
   coupling::CalibrationOptions options{.source = coupling::EvidenceSource::profiles, .draws = draws};
   if (in_main_thread())
@@ -94,6 +96,18 @@ void add_laws(py::module_& module) {
   });
   law.def_property_readonly("nu", [](const RheologyFit& of) { return of.nu; });
   law.def_property_readonly("words", [](const RheologyFit& of) { return described(of.mu); });
+
+  // a, b, half widths of their intervals, rms of mu, Birge ratio, number and range of the points.
+  module.def("fit_log_friction", [](const Run& arrays) {
+    const coupling::FrictionFit fit = coupling::fit_log_friction(points_of("fit_log_friction", arrays));
+    const auto& [var_a, covariance, var_b] = fit.law.covariance;
+    return py::make_tuple(fit.law.a, fit.law.b, half_width_99(fit, var_a), half_width_99(fit, var_b),
+                          fit.rms_misfit, fit.birge_ratio, fit.points, fit.law.I_min, fit.law.I_max);
+  });
+  module.def("log_curve", [](double a, double b, double I_min, double I_max) {
+    const LawCurve curve = law_curve(LogLaw{.a = a, .b = b}, I_min, I_max);
+    return py::dict(py::arg("I") = curve.I, py::arg("mu") = curve.mu);
+  });
 
   using coupling::Calibration;
   py::class_<Calibration> calibration(module, "Calibration");

@@ -2,7 +2,7 @@
 
 import importlib
 
-# The compiled part is loaded by what needs it: `drumlin.study` reads files alone.
+# The compiled part is loaded by what needs it.
 _HOMES = {"_drumlin": ["version"], "commands": ["command", "compare", "measure", "program", "run", "score", "solve_flow", "sweep"],
           "contacts": ["ContactSolution", "contact_residual", "contact_solvers", "solve_contacts"],
           "errors": ["DrumlinError", "InputError", "IoError", "NotConvergedError"], "files": ["Arrays", "Folder", "read", "value_of"],

@@ -1,7 +1,7 @@
 """Many runs together: laws over the speed of rotation, the paper's table, both sides over the speed, limits, the score of a continuum
 (docs/formats/study.md, comparison-study.md, score.md).
 
-`drumlin measure --study`, `drumlin compare --study` and `drumlin score` start it; it reads their files with numpy, scipy and h5py alone."""
+`drumlin measure --study`, `drumlin compare --study` and `drumlin score` start it; it reads their files with numpy, scipy and h5py."""
 
 from .fields import map_of_fields, read_fields, write_maps
 from .fits import Scalar, fit_line, fit_log_friction, fit_power, pooled_speeds

@@ -140,35 +140,8 @@ class LogFriction(typing.NamedTuple):
 
 
 def fit_log_friction(inertial, mu, I_error, mu_error):
-    """Least squares of mu on ln I, weights 1/(mu_error^2 + (b I_error/I)^2 + s^2), as `drumlin measure` fits mu_a and mu_b; arrays of shape (points,),
-    three or more with different I, standard errors (NaN: not known).
+    """mu = a + b ln I as `drumlin measure` fits mu_a and mu_b; arrays of shape (points,), three or more with different I, standard errors (NaN: not known)."""
+    from .. import _drumlin  # pylint: disable=import-outside-toplevel  # the study of other things reads files alone
 
-    s, the scatter beyond the errors, makes the reduced chi^2 one (Mandel & Paule, Anal. Chem. 42 (1970) 1194) and is 0 where it is below one already. The
-    points are taken for independent: where the misfit is systematic, the intervals are a lower bound."""
-    x, freedom = np.log(inertial), inertial.size - 2
-    errors_x, errors_y = (np.where(np.isfinite(v), v, 0) ** 2 for v in (I_error / inertial, mu_error))
-
-    def variance(slope, scatter2):
-        return errors_y + slope**2 * errors_x + scatter2
-
-    def line_with(scatter2):
-        slope = plain[1][0]
-        for _ in range(20):
-            line = straight_line(x, mu, variance(slope, scatter2))
-            slope = line[1][0]
-        return line, np.sum((mu - line[0][0] - slope * x) ** 2 / variance(slope, scatter2)) / freedom
-
-    plain = straight_line(x, mu, np.ones(x.size))
-    reduced_chi2 = math.nan
-    if variance(plain[1][0], 0).min() > 0:
-        line, reduced_chi2 = line_with(0)
-    if not reduced_chi2 <= 1:
-        low, high = 0.0, 4 * plain[2] / freedom  # points without errors scatter by a quarter of that; with errors s is below
-        for _ in range(60):
-            middle = (low + high) / 2
-            low, high = (middle, high) if line_with(middle)[1] > 1 else (low, middle)
-        line, _ = line_with(max(high, 1e-100))  # points exactly on a line: their weights stay finite
-    factor = told_quantile_99(reduced_chi2 if reduced_chi2 <= 1 else 1, freedom)
-    a, b = (Scalar(value, factor * np.sqrt(squared)) for value, squared in line[:2])
-    rms = np.sqrt(np.mean((mu - a.value - b.value * x) ** 2))
-    return LogFriction(a, b, rms, math.sqrt(reduced_chi2), x.size, inertial.min(), inertial.max())
+    a, b, a_ci99, b_ci99, *further = _drumlin.fit_log_friction([inertial, mu, I_error, mu_error])
+    return LogFriction(Scalar(a, a_ci99), Scalar(b, b_ci99), *further)
