@@ -98,12 +98,6 @@ TEST(SceneFile, DoesNotRepeatAProblemAsAContradiction) {
   expect_has(testing::only_scene_problem(text), "walls.0.name: is missing");
 }
 
-TEST(SceneFile, RefusesAnotherVersion) {
-  const auto text = replaced(example_scene, "drumlin-scene-1", "drumlin-scene-2");
-  EXPECT_EQ(testing::only_scene_problem(text + "new = 1\n"),
-            "s.toml:1:10: format: is \"drumlin-scene-2\" (allowed: \"drumlin-scene-1\")");
-}
-
 TEST(SceneFile, OverridesCountAsTheFile) {
   const Scene read =
       parse_scene(example_scene, "s.toml", {"solver.max_sweeps=50", "output.log_every_steps=7"});
