@@ -1,6 +1,5 @@
 // Effects of the continuum on a drum of 30 grains' width.
 #include "boxes.hpp"
-#include "continuum/fem/detail/solved_level.hpp"
 #include "continuum/postprocessing/drum_profiles.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"
 
@@ -21,16 +20,6 @@ void expect_same_flow(const FlowField& a, const FlowField& b, double tolerance) 
     EXPECT_NEAR(here[i].velocity.x, there[i].velocity.x, tolerance);
     EXPECT_NEAR(here[i].velocity.z, there[i].velocity.z, tolerance);
     EXPECT_NEAR(here[i].sigma_xz, there[i].sigma_xz, tolerance);
-  }
-}
-
-TEST(RotatingFrame, ChangesNoAnswerWithInertiaOrWithout) {
-  for (const bool inertia : {false, true}) {
-    FlowProblem laboratory = small_drum_problem();
-    if (inertia) laboratory.inertia = Inertia{};
-    FlowProblem turning = laboratory;
-    turning.frame = RotatingFrame{drum.rotation, drum.axis_offset};
-    expect_same_flow(converged(laboratory, one_mesh()), converged(turning, one_mesh()), 1e-5);
   }
 }
 
@@ -84,45 +73,6 @@ TEST(FrictionWall, DissipatesWhatItAndTheWeightSupply) {
   const FlowIntegrals sums = field.integrals({0, drum.axis_offset});
   EXPECT_NEAR(sums.dissipation / (sums.given_side_power + sums.weight_power), 1, 2e-3);
   EXPECT_NEAR(sums.given_side_torque / -sums.weight_torque, 1, 1e-3);
-}
-
-// What Newton's method holds for a problem: unknowns, entries of its matrix.
-std::pair<int, std::size_t> system_of(const FlowField& field) {
-  const fem::SolvedLevel& level = field.level();
-  fem::System system(*level.discretisation);
-  assemble_tangent(level.problem, *level.discretisation, level.setting, level.state, system);
-  return {field.unknowns(), static_cast<std::size_t>(system.matrix.n_nonzero_elements())};
-}
-
-TEST(AbsentEffects, LeaveNoUnknownNoEntryAndNoArray) {
-  const FlowField plain = converged(small_drum_problem(), one_mesh());
-  EXPECT_FALSE(plain.level().setting.inertia);
-  EXPECT_EQ(plain.level().state.held, nullptr);
-  EXPECT_FALSE(plain.level().discretisation->surface);
-  FlowProblem turned = small_drum_problem(), moving = small_drum_problem(), seen = small_drum_problem(),
-              spread = small_drum_problem();
-  turned.turned = TurnedStress{.k = StressRatioLaw({1e-4, 1e-1}, {1.02, 1.04})};
-  spread.nonlocal = NonlocalFluidity{1};
-  FlowProblem remembering = small_drum_problem();
-  remembering.memory.emplace(
-      MemoryLaw{.c = 6, .m = 0.9, .chi_deg = 20, .c_rho = 100, .mu = {{1e-6, 1}, {0.17, 0.35}}});
-  moving.inertia = Inertia{};
-  seen.frame = RotatingFrame{drum.rotation, drum.axis_offset};
-  // Nor do these add any: their terms stand within the same entries, what is held lies beside the matrix.
-  for (const FlowProblem& problem : {turned, spread, remembering, moving, seen})
-    EXPECT_EQ(system_of(converged(problem, one_mesh())), system_of(plain));
-  const auto held = [](const FlowProblem& problem) {
-    return converged(problem, one_mesh()).level().state.held;
-  };
-  EXPECT_TRUE(held(turned)->turning);
-  EXPECT_FALSE(held(turned)->ln_fluidity);
-  EXPECT_TRUE(held(spread)->ln_fluidity);
-  EXPECT_FALSE(held(spread)->turning);
-  EXPECT_FALSE(held(spread)->axes);
-  EXPECT_TRUE(held(remembering)->axes);
-  EXPECT_TRUE(held(remembering)->rho);
-  EXPECT_FALSE(held(remembering)->turning);
-  EXPECT_TRUE(converged(moving, one_mesh()).level().setting.inertia);
 }
 
 TEST(AdaptiveMesh, HalvesAShareOfTheCellsAndStaysCloseToTheFineMesh) {

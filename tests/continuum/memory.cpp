@@ -8,7 +8,7 @@
 #include "continuum/fem/detail/held_fields.hpp"
 #include "continuum/fem/detail/solved_level.hpp"
 #include "given_flow.hpp"
-#include "tangent_error.hpp"
+#include "remembering.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"
 
 namespace drumlin {
@@ -21,9 +21,7 @@ using testing_given_flow::TwoObservers;
 using Complex = std::complex<double>;
 using Tensor = std::function<Complex(Vec2)>;
 
-// As mu = 0.35 + 0.013 ln I of the small drum.
-const FrictionTable amount{{1e-6, 1}, {0.35 + 0.013 * std::log(1e-6), 0.35}};
-const MemoryLaw law{.c = 6, .m = 0.9, .chi_deg = 25, .c_rho = 100, .mu = amount};
+using testing_remembering::amount, testing_remembering::law, testing_remembering::swelling;
 const double lag = std::atan(1 / law.c);
 
 struct Found {
@@ -112,46 +110,6 @@ FlowProblem small_remembering_drum() {
   return problem;
 }
 
-TEST(MemoryOfTheAxes, SolvesTheSmallDrumWithInertiaForAnyObserver) {
-  FlowProblem seen = small_remembering_drum();
-  seen.frame = RotatingFrame{small_drum().rotation, small_drum().axis_offset};
-  FlowSolution solved = ended(solve_flow(small_remembering_drum(), one_mesh()));
-  EXPECT_LE(solved.report.picard_updates, 20);
-  const FlowField turning = converged(seen, one_mesh());
-  EXPECT_NEAR(turning.theta(), solved.field.theta(), 1e-5);
-  EXPECT_NEAR(state_at(turning, {2, -9}).sigma_xz, state_at(solved.field, {2, -9}).sigma_xz, 1e-4);
-  const FlowIntegrals sums = solved.field.integrals({0, small_drum().axis_offset});
-  EXPECT_EQ(sums.ill_posed_area, 0);
-  EXPECT_GT(sums.dissipation, 0);
-  EXPECT_NEAR(sums.given_side_torque / -sums.weight_torque, 1, 1e-2);
-  // The stress lags behind the axes of strain rate: memory shows.
-  EXPECT_GT(std::abs(state_at(solved.field, {2, -9}).axis_angle), 1 * degree);
-}
-
-TEST(MemoryOfTheAxes, IsTakenFromTheFlowThatANeighbourLeft) {
-  const FlowField slow = converged(small_remembering_drum(), one_mesh());
-  const FlowSolution from = ended(solve_flow_from(slow.state(), small_remembering_drum(), one_mesh()));
-  EXPECT_EQ(from.report.start, "neighbour");
-  EXPECT_LE(from.report.picard_updates, 3);
-  EXPECT_NEAR(from.field.theta(), slow.theta(), 1e-4);
-}
-
-const AmountMemory swelling{
-    .swelling = 0.008, .c_nu = 4, .c_psi = 16, .lag = 0.05, .creep = Creep{.slope = 0.015, .ratio = 0.05}};
-
-TEST(MemoryOfTheAxes, TangentIsTheDerivativeOfTheResidual) {
-  FlowProblem problem = testing_tangent::small_segment();
-  problem.memory.emplace(law);
-  EXPECT_LT(testing_tangent::tangent_error(problem, false, 1e-6), 1e-7);
-  problem.nonlocal = NonlocalFluidity{.length = 1.5};
-  EXPECT_LT(testing_tangent::tangent_error(problem, false, 1e-6), 1e-7);
-  problem.memory->law.amount = swelling;
-  problem.memory->law.amount->creep->ratio = 1;  // where the material turns faster than it shears
-  EXPECT_LT(testing_tangent::tangent_error(problem, false, 1e-6), 1e-7);
-  problem.nonlocal.reset();
-  EXPECT_LT(testing_tangent::tangent_error(problem, false, 1e-6), 1e-7);
-}
-
 TEST(MemoryOfTheAxes, IsNotCalledSettledWhileItChanges) {
   // chi falls with I here: an early update of the velocity was small (4e-5) by chance, with axes 3 deg off.
   FlowProblem problem = sheared_strip();
@@ -192,24 +150,6 @@ TEST(MemoryOfTheAmount, WithoutCoefficientsIsNone) {
   const FlowField a = converged(small_remembering_drum(), one_mesh()), b = converged(nothing, one_mesh());
   EXPECT_NEAR(a.theta(), b.theta(), 1e-5);  // as far as the memory is settled
   EXPECT_NEAR(state_at(a, {2, -9}).sigma_xz, state_at(b, {2, -9}).sigma_xz, 1e-4);
-}
-
-TEST(MemoryOfTheAmount, SolvesTheSmallDrumForAnyObserver) {
-  FlowProblem problem = small_remembering_drum();
-  problem.memory->law.amount = swelling;
-  FlowProblem seen = problem;
-  seen.frame = RotatingFrame{small_drum().rotation, small_drum().axis_offset};
-  const FlowSolution solved = ended(solve_flow(problem, one_mesh()));
-  EXPECT_LE(solved.report.picard_updates, 25);
-  const FlowField turning = converged(seen, one_mesh());
-  EXPECT_NEAR(turning.theta(), solved.field.theta(), 2e-5);
-  EXPECT_NEAR(state_at(turning, {2, -9}).sigma_xz, state_at(solved.field, {2, -9}).sigma_xz, 2e-4);
-  const FlowIntegrals sums = solved.field.integrals({0, small_drum().axis_offset});
-  EXPECT_EQ(sums.ill_posed_area, 0);
-  EXPECT_GT(sums.dissipation, 0);
-  // It does something: the stress where material enters the layer is another one.
-  const FlowField alone = converged(small_remembering_drum(), one_mesh());
-  EXPECT_GT(std::abs(alone.theta() - solved.field.theta()), 1e-5);
 }
 
 TEST(MemoryOfTheAmount, IsNothingWhereIIsTheSameEverywhere) {

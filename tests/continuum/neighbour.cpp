@@ -26,15 +26,6 @@ TEST(Neighbour, AnotherSpeedIsFoundInAFewIterations) {
   EXPECT_NEAR(from.field.theta(), converged(drum_at(0.03), {}).theta(), 1e-6);
 }
 
-TEST(Neighbour, AFlowStartedFromItselfStaysThere) {
-  const FlowField field = converged(drum_at(0.03), {});
-  const FlowSolution again = ended(solve_flow_from(field.state(), drum_at(0.03)));
-  EXPECT_LE(again.report.iterations, 2);
-  EXPECT_NEAR(again.field.theta(), field.theta(), 1e-8);
-  const Vec2 point{1, -2};
-  EXPECT_NEAR(state_at(again.field, point).velocity.x, state_at(field, point).velocity.x, 1e-6);
-}
-
 TEST(Neighbour, IsKeptInTheOrderOfItsCells) {
   const FlowState state = converged(drum_at(0.03), {}).state();
   EXPECT_TRUE(std::is_sorted(state.cells.begin(), state.cells.end()));

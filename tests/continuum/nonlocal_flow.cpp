@@ -1,6 +1,5 @@
 // Fluidity that spreads over a given length, in whole flows.
 #include "boxes.hpp"
-#include "coupling/core/basics/errors.hpp"
 #include "tests/hardcases/continuum/small_drum.hpp"
 
 namespace drumlin::nonlocal_flow {
@@ -91,13 +90,6 @@ TEST(NonlocalFlow, TendsToTheLocalOneWithTheSquareOfItsLength) {
   const double near = distance(drum_with(0.25), local), far = distance(drum_with(0.5), local);
   EXPECT_GT(near, 1e-4);
   EXPECT_NEAR(far / near, 4, 0.8);
-}
-
-TEST(NonlocalFlow, IsRefusedInTime) {
-  const FlowField rest = flow_at_rest(small_drum_problem(paper), options_of(1, 1e-3));
-  FlowProblem nonlocal = small_drum_problem(paper);
-  nonlocal.nonlocal = NonlocalFluidity{1};
-  EXPECT_THROW((void)march_flow(rest, nonlocal, {.time_step = 1, .steps = 1}), InputError);
 }
 
 }  // namespace
