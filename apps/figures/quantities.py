@@ -32,8 +32,8 @@ class Quantity(typing.NamedTuple):
 
 
 def _math_in_html(found):
-    text = re.sub(r"\\dot\\([a-z]+)", r"&\1;&#775;", found[1].replace(r"\log", "log").replace(r"\partial", r"\part"))
-    text = html.unescape(re.sub(r"\\([a-z]+)", r"&\1;", text))
+    text = re.sub(r"\\dot\\([a-zA-Z]+)", r"&\1;&#775;", found[1].replace(r"\log", "log").replace(r"\partial", r"\part"))
+    text = html.unescape(re.sub(r"\\([a-zA-Z]+)", r"&\1;", text))
     return re.sub(r"_(?:\{(.*?)\}|(\w))", r"<sub>\1\2</sub>", text)
 
 

@@ -33,7 +33,7 @@ def places_of(prefix):
     names = ["bin/drumlin", "bin/drumlin-flow", "include/drumlin/particles/stepping/run_through.hpp", "share/drumlin/scenes/drum-smoke.toml",
              "share/drumlin/rheology/paper.toml", "share/drumlin/paper/observables.toml", "share/man/man1/drumlin.1", "share/fish/vendor_completions.d/drumlin.fish",
              "share/zsh/site-functions/_drumlin", "share/bash-completion/completions/drumlin", "share/doc/drumlin/docs/tutorial.md", "lib/python3/dist-packages/drumlin/__init__.py",
-             "lib/python3/dist-packages/drumlin/figures/style.py", "lib/python3/dist-packages/drumlin/pages/comparison.html"]
+             "lib/python3/dist-packages/drumlin/figures/quantities.md", "lib/python3/dist-packages/drumlin/figures/style.py", "lib/python3/dist-packages/drumlin/pages/comparison.html"]
     for name in names:
         require((prefix / name).exists(), f"{name} is not installed")
     require(list(prefix.glob("lib/**/cmake/Drumlin/DrumlinConfig.cmake")), "DrumlinConfig.cmake is not installed")

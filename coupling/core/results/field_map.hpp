@@ -29,7 +29,7 @@ struct MapField {
 };
 
 /// Maps of one run, dimensionless (docs/conventions.md), velocities in the frame of the drum. Names of the
-/// fields, the same on both sides: docs/formats/maps.md.
+/// fields, the same on both sides: docs/formats/quantities.md.
 struct FieldMap {
   MapGrid grid;
   std::vector<MapField> fields;

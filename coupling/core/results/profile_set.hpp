@@ -17,8 +17,7 @@ struct ProfileColumn {
 
 /// Profile at one position x. z counts from the free surface (negative below it), one entry per layer,
 /// ascending; dimensionless (docs/conventions.md), in the frame of the drum. Names of the columns, the same
-/// on both sides: v_x, v_z, shear_rate (dv_x/dz), omega, nu, sigma_xx, sigma_zz, sigma_xz, I, mu, k, dv,
-/// domega, count.
+/// on both sides: docs/formats/quantities.md.
 struct ProfileSet {
   std::vector<double> z;
   std::vector<ProfileColumn> columns;
