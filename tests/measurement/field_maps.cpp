@@ -282,5 +282,29 @@ TEST(Quantities, HaveWordsInTheTableWhateverIsMeasured) {
   EXPECT_EQ(quantity_words("weight_particles").meaning, "");
 }
 
+TEST(Temperature, OverThePressureOfAGasIsOneOverNuAndUnderAWeightItsShare) {
+  const FieldMap gas = maps_of(lattice_graining(), {square_lattice([](double x, double z) {
+                                 return std::array{0.3 * x, z};
+                               })});
+  each_inner_node(gas, [](double, double, auto value) {
+    EXPECT_NEAR(value("temperature_over_p"), 1 / value("nu"), 1e-12);
+  });
+  Snapshot columns = testing::stacked_columns(6, 20, 0);
+  const double u = 0.5, w = 2;
+  for (std::size_t i = 0; i < columns.x.size(); ++i)
+    columns.v_x[i] = (i / 20 % 2 == 0 ? u : -u), columns.v_z[i] = (i / 20 % 2 == 0 ? w : -w);
+  const Measurement layers = testing::measurement_of(columns);
+  // T = (u^2 + w^2)/2, p = nu T + half of the weight above, nu = pi/4.
+  for (std::size_t l = 0; l < 20; ++l)
+    EXPECT_NEAR(testing::at(layers, "temperature_over_p", l),
+                (u * u + w * w) / (std::numbers::pi / 4 * (u * u + w * w + 19.5 - static_cast<double>(l))),
+                1e-12);
+  for (Snapshot still : {testing::stacked_columns(6, 20, 0), testing::hexagonal_layer(4, 4)}) {
+    const double expected = still.contacts.empty() ? std::nan("") : 0;  // no pressure, no temperature over it
+    const double found = testing::at(testing::measurement_of(still), "temperature_over_p", 2);
+    EXPECT_TRUE(found == expected || (std::isnan(found) && std::isnan(expected))) << found;
+  }
+}
+
 }  // namespace
 }  // namespace drumlin

@@ -21,6 +21,13 @@ using Vector = std::array<double, D>;
 template <int D>
 using Tensor = std::array<Vector<D>, D>;
 
+template <int D>
+double trace(const Tensor<D>& t) {
+  double sum = 0;
+  for (int a = 0; a < D; ++a) sum += t[a][a];
+  return sum;
+}
+
 inline PlaneMatrix plane_matrix(const Tensor<2>& t) { return {t[0][0], t[0][1], t[1][0], t[1][1]}; }
 
 /// A grain as a region sees it: places and velocities in the region's own axes.
@@ -125,10 +132,10 @@ struct Background {
 /// Means that every table has of its regions, whatever their axes. A new one is a member, its name in
 /// `shared_fields` and its line in derive(); docs/formats/quantities.md has its words.
 struct SharedFields {
-  double coordination = no_value;
+  double coordination = no_value, temperature_over_p = no_value;
 };
 constexpr std::pair<const char*, double SharedFields::*> shared_fields[] = {
-    {"coordination", &SharedFields::coordination}};
+    {"coordination", &SharedFields::coordination}, {"temperature_over_p", &SharedFields::temperature_over_p}};
 
 /// Means over a region. NaN where there is nothing to take them of, but no motion is no kinetic stress.
 template <int D>
@@ -176,6 +183,7 @@ Fields<D> derive(const Moments<D, N>& m, const Background<D>& background) {
       if (m.motion.weight > 0)
         f.kinetic[a][b] = density * fluctuation<D>(m.motion, background.gradient, a, b);
     }
+  if (const double p = trace<D>(f.pressure()); p > 0) f.temperature_over_p = trace<D>(f.kinetic) / (f.nu * p);
   return f;
 }
 
