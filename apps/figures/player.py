@@ -64,7 +64,7 @@ def content_of(drawing, frames):
     view = grain_maps.View(frames, drawing["window"])
     scales = drawing["run"]["scales"]
     fields = [described(name, field, frames, drawing) for name, field in known_fields(frames, scales).items()]
-    content = {"format": "drumlin-player-1", "title": drawing["title"], "reduced": drawing["reduced"], "status": drawing["status"],
+    content = {"format": "drumlin-player-2", "title": drawing["title"], "reduced": drawing["reduced"], "status": drawing["status"],
                "revision": drawing["run"].get("revision", ""), "scales": scales, "period": drawing["period"],
                "view": [float(v) for v in (view.low[0], view.high[0], view.low[1], view.high[1])],
                "field": drawing["color"] or "speed", "fields": fields, "signal": overlaps.SIGNAL,
