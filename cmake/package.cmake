@@ -7,11 +7,9 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-# Libraries are found by what the programs load; what Python imports, what is loaded on demand, and what programs of users are built with, is named.
+# Libraries are found by what the programs load; what Python imports, and what programs of users are built with, is named.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-file(STRINGS ${DRUMLIN_UMFPACK_INCLUDES}/suitesparse/umfpack.h umfpack_version REGEX "define UMFPACK_MAIN_VERSION ")
-string(REGEX MATCH "[0-9]+" umfpack_version "${umfpack_version}")
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "libumfpack${umfpack_version}, python3 (>= 3.11), python3-numpy, python3-scipy, python3-h5py, python3-matplotlib, python3-jinja2")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3 (>= 3.11), python3-numpy, python3-scipy, python3-h5py, python3-matplotlib, python3-jinja2")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS
-    "g++, cmake, libeigen3-dev, nlohmann-json3-dev, libfmt-dev, libhwy-dev, zlib1g-dev, libssl-dev, libsuitesparse-dev, libhdf5-openmpi-dev, libdeal.ii-dev")
+    "g++, cmake, libeigen3-dev, nlohmann-json3-dev, libfmt-dev, libhwy-dev, zlib1g-dev, libssl-dev, libhdf5-openmpi-dev, libdeal.ii-dev")
 include(CPack)

@@ -16,7 +16,7 @@ struct FemRuntime::Libraries {
 
 FemRuntime::FemRuntime(int&, char**& argv) {
   prepare_libraries();
-  start_blas(nullptr, mpi_mebibytes);
+  start_blas(mpi_mebibytes);
   libraries_ = std::make_unique<Libraries>(argv);
 }
 

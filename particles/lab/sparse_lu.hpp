@@ -14,9 +14,9 @@ struct SparsePattern {
   int size() const { return static_cast<int>(column_start.size()) - 1; }
 };
 
-/// Factors of matrices of one pattern, by UMFPACK (Davis 2004). The pattern should be symmetric: rows and
-/// columns are then ordered alike, which keeps the fill of a planar graph. The same matrix gives the same
-/// bytes on one machine.
+/// Factors of matrices of one pattern, by Eigen (Demmel et al. 1999). The pattern should be symmetric: rows
+/// and columns are then ordered alike, which keeps the fill of a planar graph. The same matrix gives the same
+/// bytes.
 class SparseLu {
  public:
   explicit SparseLu(SparsePattern pattern);
@@ -27,7 +27,7 @@ class SparseLu {
   const SparsePattern& pattern() const;
   /// Entries in the order of the pattern. False if the matrix is singular or an entry is not finite; there
   /// are then no factors.
-  bool factorise(std::vector<double> values);
+  bool factorise(const std::vector<double>& values);
   /// Solves A x = b with the last factors.
   void solve(std::span<const double> b, std::span<double> x) const;
   /// Solves A^T x = b.

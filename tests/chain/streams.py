@@ -115,11 +115,10 @@ def check_limits_of_libraries(executable, data, scene, run, folder):
     (taken / "theirs").touch()
     flow = ["flow", here / "tiny-drum-flow.toml", "--rheology", paper, "-o", folder / "flow"]
     ranks = ["run", scene, "-o", folder / "ranks", "--ranks", "2"]
-    solve = ["solve-contacts", data / "problems" / "drum-300-mu-0.95-flow.h5", "--solver", "reference", "--tolerance", "1e-12"]
     memory, stack, files = resource.RLIMIT_AS, resource.RLIMIT_STACK, resource.RLIMIT_NOFILE
     cases = [(words, stack, 64 << 10, "stack") for words in (flow, ranks, ["run", scene, "-o", folder / "small"], ["plot", run])]
     cases += [(flow, memory, 600 * mebibyte, "not enough memory"), (flow, memory, 200 * mebibyte, "lack of memory"),
-              (["plot", run], memory, 200 * mebibyte, "not enough memory"), (solve, memory, 200 * mebibyte, "not enough memory"),
+              (["plot", run], memory, 200 * mebibyte, "not enough memory"),
               (flow, files, 12, "12 files"), (ranks, files, 12, "12 files"), (["plot", run], files, 12, "Too many open files")]
     for words, kind, value, said in cases:
         result = ended(executable, words, limited(kind, value))

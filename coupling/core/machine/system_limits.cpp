@@ -52,10 +52,9 @@ void require_memory(int mebibytes) {
   ::munmap(memory, bytes);
 }
 
-void start_blas(void* library, int mebibytes_more) {
+void start_blas(int mebibytes_more) {
   require_memory(blas_buffer + mebibytes_more);
-  auto* const solve =
-      reinterpret_cast<Dtrsm*>(::dlsym(library == nullptr ? RTLD_DEFAULT : library, "dtrsm_"));
+  auto* const solve = reinterpret_cast<Dtrsm*>(::dlsym(RTLD_DEFAULT, "dtrsm_"));
   if (solve == nullptr) return;  // it has another BLAS within it
   constexpr int size = 4;
   constexpr double one = 1;

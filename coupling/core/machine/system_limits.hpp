@@ -11,8 +11,7 @@ void require_open_files(int count);
 /// So much memory more, in MiB; it is asked for and given back.
 void require_memory(int mebibytes);
 /// What BLAS works in, 128 MiB, and so much memory more. OpenBLAS takes it with its first product and, where
-/// it gets none, asks for ever: it has it when this returns. `library`: handle of one that has brought BLAS;
-/// null: the program has.
-void start_blas(void* library, int mebibytes_more);
+/// it gets none, asks for ever: it has it when this returns.
+void start_blas(int mebibytes_more);
 
 }  // namespace drumlin
