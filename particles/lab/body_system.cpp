@@ -129,13 +129,6 @@ std::vector<double> BodySystem<dim, with_spin>::solution(std::span<const double>
   return x;
 }
 
-template <int dim, bool with_spin>
-std::vector<double> BodySystem<dim, with_spin>::transposed_solution(std::span<const double> b) const {
-  std::vector<double> x(b.size());
-  lu_.solve_transposed(b, x);
-  return x;
-}
-
 template class BodySystem<1, false>;
 template class BodySystem<2, false>;
 template class BodySystem<2, true>;

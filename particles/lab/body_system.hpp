@@ -38,8 +38,6 @@ class BodySystem {
   bool factorise(std::span<const ContactResponse> D);
   /// Solves with the last factors.
   std::vector<double> solution(std::span<const double> b) const;
-  std::vector<double> transposed_solution(std::span<const double> b) const;
-  int determinant_sign() const { return lu_.determinant_sign(); }
 
  private:
   using Row = std::array<double, 2 * numbers>;

@@ -70,6 +70,4 @@ void SparseLu::solve_transposed(std::span<const double> b, std::span<double> x) 
   solve_refined(factors_->matrix.transpose(), factors_->lu.transpose(), b, x);
 }
 
-int SparseLu::determinant_sign() const { return factors_->lu.signDeterminant() < 0 ? -1 : 1; }
-
 }  // namespace drumlin::particles

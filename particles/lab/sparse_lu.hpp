@@ -32,8 +32,6 @@ class SparseLu {
   void solve(std::span<const double> b, std::span<double> x) const;
   /// Solves A^T x = b.
   void solve_transposed(std::span<const double> b, std::span<double> x) const;
-  /// Sign of det A of the last factors: 1 or -1.
-  int determinant_sign() const;
 
  private:
   struct Factors;
