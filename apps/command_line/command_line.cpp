@@ -2,14 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <sstream>
+#include <type_traits>
 #include <utility>
 
-#include "apps/command_line/checked_options.hpp"
-#include "apps/command_line/command_options.hpp"
 #include "apps/command_line/completion.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/basics/provenance.hpp"
@@ -18,13 +16,11 @@ namespace drumlin::apps {
 
 namespace {
 
-/// A link to a folder that a user names for results stands for that folder; no other link is followed.
-std::string linked_folder(const std::string& name) {
-  const std::filesystem::path given = name, link = given.has_filename() ? given : given.parent_path();
-  std::error_code error;
-  const bool is_link = is_symlink(symlink_status(link, error)) && is_directory(link, error);
-  return is_link ? std::filesystem::canonical(link).string() : name;
-}
+constexpr const char* notes =
+    "New here: drumlin new drum -o scene.toml, and docs/tutorial.md.\n"
+    "Exit codes: 0 done, 2 wrong usage or input, 3 not converged, 70 a fault of this program, "
+    "74 input/output, 129 hung up, 130 interrupted, 143 terminated.\n"
+    "Each command has its own --help.";
 
 /// Names stand in results, whose text is UTF-8.
 void refuse_unless_utf8(const std::string& word) {
@@ -49,75 +45,114 @@ std::size_t edits(const std::string& from, const std::string& to) {
   return row.back();
 }
 
-/// All commands with the options that they fill in; `request` receives those of the chosen one.
+void refuse_unknown_command(const std::string& word, const std::vector<Command>& commands) {
+  if (word.starts_with("-")) return;
+  std::string nearest;
+  for (const Command& command : commands) {
+    if (command.name == word) return;
+    if (nearest.empty() || edits(word, command.name) < edits(word, nearest)) nearest = command.name;
+  }
+  const bool near = edits(word, nearest) <= 1 + word.size() / 3;
+  throw InputError("no command is called \"" + word + "\"" +
+                   (near ? "; did you mean drumlin " + nearest + "?" : "; drumlin --help lists them"));
+}
+
+/// A number within its range, as text of the command line.
+template <class T>
+CLI::Validator within(const Allowed& allowed) {
+  const std::string range = allowed_text("number", allowed);
+  return CLI::Validator(
+      [allowed, range](std::string& text) {
+        T number{};
+        const bool read = CLI::detail::lexical_cast(text, number);
+        return read && allowed.holds(static_cast<double>(number)) ? std::string() : text + " is not " + range;
+      },
+      "");
+}
+
+/// An option as the parser knows it, by the type of its member.
+struct Adding {
+  CLI::App& command;
+  const Option& option;
+
+  CLI::Option* operator()(bool* flag) const {
+    return command.add_flag(option.names, *flag, option.help_text());
+  }
+  CLI::Option* operator()(const ExistingWord& flag) const {
+    return command.add_flag_callback(
+        option.names, [flag] { *flag.place = flag.word; }, option.help_text());
+  }
+  template <class T>
+  CLI::Option* operator()(T* value) const {
+    CLI::Option* added = held<T>(command.add_option(option.names, *value, option.help_text()));
+    if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>)
+      if (!option.is_required) added->capture_default_str();
+    return added;
+  }
+  template <class T>
+  CLI::Option* operator()(std::optional<T>* value) const {
+    return held<T>(command.add_option_function<T>(
+        option.names, [value](const T& word) { *value = word; }, option.help_text()));
+  }
+  template <class T>
+  CLI::Option* operator()(std::vector<T>* values) const {
+    CLI::Option* added = held<T>(command.add_option(option.names, *values, option.help_text()));
+    if (option.is_repeated)
+      added->allow_extra_args(false);
+    else if (!std::is_same_v<T, std::filesystem::path>)
+      added->delimiter(',');
+    return added;
+  }
+
+ private:
+  /// With what one of its values may be.
+  template <class T>
+  CLI::Option* held(CLI::Option* added) const {
+    if constexpr (std::is_arithmetic_v<T>)
+      if (option.allowed) added->check(within<T>(*option.allowed));
+    if (!option.choices().empty()) added->check(CLI::IsMember(option.choices()));
+    return added->type_name(option.kind);
+  }
+};
+
+void add_options(CLI::App& app, const Description& description) {
+  for (const Option& option : description.options()) {
+    CLI::Option* added = std::visit(Adding{app, option}, option.place);
+    if (option.is_required) added->required();
+    if (option.read != nullptr) added->transform(option.read);
+  }
+  for (const Option& option : description.options()) {
+    CLI::Option* added = app.get_option(option.is_positional() ? option.names : "--" + option.name());
+    for (const std::string& other : option.needed) added->needs(app.get_option(other));
+    for (const std::string& other : option.excluded) added->excludes(app.get_option(other));
+  }
+}
+
+/// All commands with the calls that they fill in; `chosen` is that of the words.
 class CommandLine {
  public:
-  explicit CommandLine(const std::vector<std::string>& solvers)
+  explicit CommandLine(const std::vector<Command>& commands)
       : app_("Drumlin: dense granular flow, grains and continuum") {
+    const auto shows = [](std::string text) { throw CLI::CallForVersion(std::move(text), 0); };
     app_.name("drumlin");
     app_.set_version_flag("--version", "drumlin " + version_text());
     app_.add_option_function<std::string>(
             "--completion",
-            [this](const std::string& shell) {
-              throw CLI::CallForVersion(shell == "bash"  ? bash_completion(app_)
-                                        : shell == "zsh" ? zsh_completion(app_)
-                                                         : fish_completion(app_),
-                                        0);
-            },
+            [&commands, shows](const std::string& shell) { shows(completion(shell, commands)); },
             "Prints a script that completes commands and options: source <(drumlin --completion bash)")
         ->check(CLI::IsMember({"bash", "zsh", "fish"}))
         ->type_name("SHELL");
     app_.add_flag_callback(
-        "--man", [this] { throw CLI::CallForVersion(man_page(app_), 0); },
+        "--man", [&commands, shows] { shows(man_page(commands, notes)); },
         "Prints a page for man: man -l <(drumlin --man)");
-    app_.require_subcommand(1);
-    app_.footer(
-        "New here: drumlin new drum -o scene.toml, and docs/tutorial.md.\n"
-        "Exit codes: 0 done, 2 wrong usage or input, 3 not converged, 70 a fault of this program, "
-        "74 input/output, 129 hung up, 130 interrupted, 143 terminated.\n"
-        "Each command has its own --help.");
-    add_new_scene_options(add_command("new", "Writes a commented scene to start from", new_scene_),
-                          new_scene_);
-    add_run_options(add_command("run", "Runs a particle scene", run_), run_);
-    add_measure();
-    add_import_options(
-        add_command("import", "Makes a run folder of another program's snapshots (CSV, LAMMPS dumps)",
-                    import_),
-        import_);
-    add_plot_options(add_command("plot", "Draws a run: grains, force chains, accuracy and cost", plot_),
-                     plot_);
-    add_report_options(add_command("report", "Puts a run on one page, with a player", report_), report_);
-    add_export_options(add_command("export", "Writes a run in a format of other programs", export_), export_);
-    add_history_options(
-        add_command(
-            "history",
-            "Stress and strain of a region, forces on walls, angle of the surface, snapshot by snapshot",
-            history_),
-        history_);
-    add_calibrate_options(
-        add_command("calibrate", "Fits mu(I), and k(I) on request, to measured runs", calibrate_),
-        calibrate_);
-    add_flow_options(add_command("flow", "Solves the continuum flow with a law (starts drumlin-flow)", flow_),
-                     flow_);
-    add_compare();
-    add_score_options(
-        add_command("score", "Errors of any continuum of a drum against the particles, beside their limits",
-                    score_),
-        score_);
-    add_scene();
-    add_solve_contacts_options(
-        add_command("solve-contacts", "Solves one contact problem from a file", solve_contacts_),
-        solve_contacts_, solvers);
-    add_cost_options(
-        add_command("cost", "What accuracy costs in a scene, or its effects (docs/cost.md)", cost_), cost_);
-    add_accept_options(add_command("accept", "Takes a result folder as it is after an edit by hand", accept_),
-                       accept_);
-    for (CLI::App* command : app_.get_subcommands({}))
-      if (CLI::Option* output = command->get_option_no_throw("--output")) output->transform(linked_folder);
+    app_.add_flag_callback(
+        "--commands", [&commands, shows] { shows(commands_as_json(commands)); },
+        "Prints all commands with their options as JSON");
+    app_.footer(notes);
+    add(app_, commands);
   }
 
-  Request parse(int argc, const char* const* argv) {
-    if (argc > 1) refuse_unknown_command(argv[1]);
+  std::variant<TextToShow, std::unique_ptr<Call>> parse(int argc, const char* const* argv) {
     try {
       app_.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -127,117 +162,36 @@ class CommandLine {
       while (!text.empty() && text.back() == '\n') text.pop_back();
       throw InputError(text);
     }
-    return request_();
+    return std::move(*chosen_);
   }
 
  private:
-  void refuse_unknown_command(const std::string& word) const {
-    if (word.starts_with("-")) return;
-    std::string nearest;
-    for (const CLI::App* command : commands_of(app_)) {
-      if (command->get_name() == word) return;
-      if (nearest.empty() || edits(word, command->get_name()) < edits(word, nearest))
-        nearest = command->get_name();
+  void add(CLI::App& app, const std::vector<Command>& commands) {
+    app.require_subcommand(1);
+    for (const Command& command : commands) {
+      CLI::App* added = app.add_subcommand(command.name, command.sentence);
+      if (!command.call) {
+        add(*added, command.subcommands);
+        continue;
+      }
+      auto& call = calls_.emplace_back(command.call());
+      add_options(*added, call->description());
+      added->callback([this, &call] { chosen_ = &call; });
     }
-    const bool near = edits(word, nearest) <= 1 + word.size() / 3;
-    throw InputError("no command is called \"" + word + "\"" +
-                     (near ? "; did you mean drumlin " + nearest + "?" : "; drumlin --help lists them"));
-  }
-
-  template <class Options>
-  CLI::App& add_command(const std::string& name, const std::string& sentence, const Options& options) {
-    CLI::App* command = app_.add_subcommand(name, sentence);
-    command->callback([this, &options] { request_ = [&options]() -> Request { return options; }; });
-    return *command;
-  }
-
-  /// Either one run is measured, or measured ones are studied together.
-  void add_measure() {
-    CLI::App& command = add_command("measure", "Profiles and scalars of a run, into RUN/measured", measure_);
-    add_measure_options(command, measure_, study_);
-    command.callback([this] {
-      if (study_.runs.empty() == measure_.run.empty())
-        throw CLI::RequiredError("one of RUN and --study RUN...");
-      if (study_.runs.empty() != study_.output.empty())
-        throw CLI::RequiredError("--study RUN... together with --output STUDY");
-      study_.existing = measure_.existing;
-      request_ = [this]() -> Request {
-        if (study_.runs.empty()) return measure_;
-        return study_;
-      };
-    });
-  }
-
-  /// Either a pair is compared, or all speeds of both sides are.
-  void add_compare() {
-    CLI::App& command = add_command("compare", "Sets a run and a continuum flow side by side", compare_);
-    add_compare_options(command, compare_, compare_study_);
-    command.callback([this] {
-      const bool is_study = !compare_study_.folders.empty();
-      const bool is_pair = !compare_.run.empty() && !compare_.flow_run.empty();
-      if (is_study ? !compare_.run.empty() : !is_pair)
-        throw CLI::RequiredError("either RUN and FLOWRUN, or --study DIR...,");
-      compare_study_.output = compare_.output;
-      compare_study_.existing = compare_.existing;
-      request_ = [this]() -> Request {
-        if (compare_study_.folders.empty()) return compare_;
-        return compare_study_;
-      };
-    });
-  }
-
-  void add_scene() {
-    CLI::App* scene = app_.add_subcommand("scene", "Checks, shows and explains scene files");
-    scene->require_subcommand(1);
-    const auto add_action = [&](const std::string& name, SceneAction action, const std::string& sentence) {
-      CLI::App* command = scene->add_subcommand(name, sentence);
-      command->callback([this, action] {
-        scene_.action = action;
-        request_ = [this]() -> Request { return scene_; };
-      });
-      return command;
-    };
-    for (auto [name, action, sentence] :
-         {std::tuple("check", SceneAction::check, "Validates a scene and says what it amounts to"),
-          std::tuple("show", SceneAction::show, "Prints a scene with all its defaults")}) {
-      CLI::App* command = add_action(name, action, sentence);
-      add_scene_file(*command, scene_.scene, "Scene file");
-      add_overrides(*command, scene_.overrides);
-    }
-    add_action("list", SceneAction::list,
-               "Lists the shipped scenes, which every command finds by their names");
-    CLI::App* keys =
-        add_action("keys", SceneAction::keys, "Lists every key with unit, range, default and meaning");
-    keys->add_flag("--markdown", scene_.markdown, "As a table in Markdown");
   }
 
   CLI::App app_;
-  RunOptions run_;
-  MeasureOptions measure_;
-  ImportOptions import_;
-  StudyOptions study_;
-  PlotOptions plot_;
-  ReportOptions report_;
-  NewSceneOptions new_scene_;
-  ExportOptions export_;
-  HistoryOptions history_;
-  CalibrateOptions calibrate_;
-  FlowOptions flow_;
-  CompareOptions compare_;
-  CompareStudyOptions compare_study_;
-  ScoreOptions score_;
-  SceneOptions scene_;
-  SolveContactsOptions solve_contacts_;
-  CostOptions cost_;
-  AcceptOptions accept_;
-  std::function<Request()> request_;
+  std::deque<std::unique_ptr<Call>> calls_;
+  std::unique_ptr<Call>* chosen_ = nullptr;
 };
 
 }  // namespace
 
-Request parse_command_line(int argc, const char* const* argv, const std::vector<std::string>& solvers) {
+std::variant<TextToShow, std::unique_ptr<Call>> parse_command_line(int argc, const char* const* argv,
+                                                                   const std::vector<Command>& commands) {
   for (int k = 1; k < argc; ++k) refuse_unless_utf8(argv[k]);
-  return CommandLine(solvers).parse(argc, argv);
+  if (argc > 1) refuse_unknown_command(argv[1], commands);
+  return CommandLine(commands).parse(argc, argv);
 }
 
 }  // namespace drumlin::apps

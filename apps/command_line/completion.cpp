@@ -1,35 +1,21 @@
 #include "apps/command_line/completion.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
-
-#include "apps/output/commands.hpp"
+#include <nlohmann/json.hpp>
 
 namespace drumlin::apps {
-
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App*) { return true; });
-}
-
 namespace {
 
-/// Names of the long options, and of the subcommands before them.
-std::string words_of(const CLI::App& app) {
-  std::string words;
-  for (const CLI::App* sub : commands_of(app)) words += sub->get_name() + " ";
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames()) words += "--" + name + " ";
-  if (!words.empty()) words.pop_back();
-  return words;
-}
-
-/// Visits long name, type and meaning of each option but the positional ones and --help.
+/// Visits each command and subcommand with its name in full, "scene check", and its options.
 template <class Visit>
-void each_option(const CLI::App& command, Visit visit) {
-  for (const CLI::Option* option : command.get_options())
-    if (!option->get_lnames().empty() && !option->check_lname("help"))
-      visit(option->get_lnames().front(), option->get_type_name(), option->get_description());
+void each_command(const std::vector<Command>& commands, const Visit& visit, const std::string& before = "") {
+  for (const Command& command : commands) {
+    const auto call = command.call ? command.call() : nullptr;
+    visit(before + command.name, command, call ? call->description() : Description{});
+    each_command(command.subcommands, visit, before + command.name + " ");
+  }
 }
 
 std::string in_quotes(std::string text) {
@@ -48,35 +34,35 @@ std::string in_roff(const std::string& text) {
   return roff.starts_with(".") || roff.starts_with("'") ? "\\&" + roff : roff;
 }
 
-std::string joined(const auto& names) {
-  std::string words;
-  for (const auto& name : names) words += (words.empty() ? "" : " ") + std::string(name);
-  return words;
-}
-
-}  // namespace
-
-std::string bash_completion(const CLI::App& program) {
-  std::string cases;
-  for (const CLI::App* command : commands_of(program)) {
-    cases += fmt::format("    {}) words=\"{}\" ;;\n", command->get_name(), words_of(*command));
-    for (const CLI::App* sub : commands_of(*command))
-      cases +=
-          fmt::format("    {}/{}) words=\"{}\" ;;\n", command->get_name(), sub->get_name(), words_of(*sub));
-  }
+std::string bash_completion(const std::vector<Command>& commands) {
+  std::string names, words, choices;
+  for (const Command& command : commands) names += command.name + " ";
+  each_command(commands, [&](std::string name, const Command& command, const Description& description) {
+    const std::size_t blank = name.find(' ');
+    if (blank != std::string::npos) name[blank] = '/';
+    std::vector<std::string> after;
+    for (const Command& sub : command.subcommands) after.push_back(sub.name);
+    after.push_back("--help");
+    for (const Option& option : description.options()) {
+      if (!option.is_positional()) after.push_back("--" + option.name());
+      if (!option.choices().empty())
+        choices += fmt::format("    {}/{}) COMPREPLY=($(compgen -W \"{}\" -- \"$current\")); return ;;\n",
+                               name, option.is_positional() ? name : "--" + option.name(),
+                               fmt::join(option.choices(), " "));
+    }
+    words += fmt::format("    {}) words=\"{}\" ;;\n", name, fmt::join(after, " "));
+  });
   return fmt::format(
       R"(# Completion of drumlin in bash: source <(drumlin --completion bash)
 _drumlin() {{
   local current="${{COMP_WORDS[COMP_CWORD]}}" before="${{COMP_WORDS[COMP_CWORD-1]}}" command="${{COMP_WORDS[1]}}" words=""
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
-    COMPREPLY=($(compgen -W "{}" -- "$current"))
+    COMPREPLY=($(compgen -W "{}--help --version --completion --man --commands" -- "$current"))
     return
   fi
-  case "$before" in
-    --color) COMPREPLY=($(compgen -W "{}" -- "$current")); return ;;
-    new) COMPREPLY=($(compgen -W "{}" -- "$current")); return ;;
-  esac
+  case "$command/$before" in
+{}  esac
   [ "$command" = scene ] && [ "$COMP_CWORD" -gt 2 ] && command="scene/${{COMP_WORDS[2]}}"
   case "$command" in
 {}  esac
@@ -86,50 +72,61 @@ _drumlin() {{
 }}
 complete -o default -F _drumlin drumlin
 )",
-      words_of(program), joined(plot_colors), joined(scene_kinds), cases);
+      names, choices, words);
 }
 
-std::string zsh_completion(const CLI::App& program) {
-  return "#compdef drumlin\nautoload -U +X bashcompinit && bashcompinit\n" + bash_completion(program);
-}
-
-std::string fish_completion(const CLI::App& program) {
+std::string fish_completion(const std::vector<Command>& commands) {
   std::string text = "# Completion of drumlin in fish\n";
-  for (const CLI::App* command : commands_of(program)) {
-    text += fmt::format("complete -c drumlin -n __fish_use_subcommand -a {} -d {}\n", command->get_name(),
-                        in_quotes(command->get_description()));
-    const auto add = [&](const std::string& name, const std::string&, const std::string& sentence) {
-      text += fmt::format("complete -c drumlin -n '__fish_seen_subcommand_from {}' -l {} -d {}\n",
-                          command->get_name(), name, in_quotes(sentence));
-    };
-    each_option(*command, add);
-    for (const CLI::App* sub : commands_of(*command))
-      text += fmt::format("complete -c drumlin -n '__fish_seen_subcommand_from {}' -a {} -d {}\n",
-                          command->get_name(), sub->get_name(), in_quotes(sub->get_description()));
-  }
+  each_command(commands,
+               [&](const std::string& name, const Command& command, const Description& description) {
+                 const std::size_t blank = name.find(' ');
+                 const std::string after = "'__fish_seen_subcommand_from " + name.substr(0, blank) + "'";
+                 text += fmt::format("complete -c drumlin -n {} -a {} -d {}\n",
+                                     blank == std::string::npos ? "__fish_use_subcommand" : after,
+                                     command.name, in_quotes(command.sentence));
+                 if (blank != std::string::npos) return;
+                 for (const Option& option : description.options())
+                   if (!option.is_positional())
+                     text += fmt::format("complete -c drumlin -n {} -l {} -d {}\n", after, option.name(),
+                                         in_quotes(option.help_text()));
+               });
   return text;
 }
 
-std::string man_page(const CLI::App& program) {
+}  // namespace
+
+std::string completion(const std::string& shell, const std::vector<Command>& commands) {
+  if (shell == "fish") return fish_completion(commands);
+  return (shell == "zsh" ? "#compdef drumlin\nautoload -U +X bashcompinit && bashcompinit\n" : "") +
+         bash_completion(commands);
+}
+
+std::string man_page(const std::vector<Command>& commands, const std::string& notes) {
   std::string text =
       ".TH DRUMLIN 1\n.SH NAME\ndrumlin \\- dense granular flow, grains and continuum\n.SH SYNOPSIS\n"
       ".B drumlin\n.I COMMAND\n[options]\n.SH COMMANDS\n";
-  const auto add_command = [&](const std::string& name, const CLI::App& command) {
-    text += fmt::format(".SS {}", in_roff(name));
-    for (const CLI::Option* option : command.get_options())
-      if (option->get_positional()) text += " " + in_roff(option->get_type_name());
-    text += "\n" + in_roff(command.get_description()) + "\n";
-    each_option(
-        command, [&](const std::string& option, const std::string& type, const std::string& sentence) {
-          text += fmt::format(".TP\n.B \\-\\-{} {}\n{}\n", in_roff(option), in_roff(type), in_roff(sentence));
-        });
-  };
-  for (const CLI::App* command : commands_of(program)) {
-    add_command(command->get_name(), *command);
-    for (const CLI::App* sub : commands_of(*command))
-      add_command(command->get_name() + " " + sub->get_name(), *sub);
-  }
-  return text + ".SH NOTES\n" + in_roff(program.get_footer()) + "\n";
+  each_command(commands,
+               [&](const std::string& name, const Command& command, const Description& description) {
+                 text += fmt::format(".SS {}", in_roff(name));
+                 for (const Option& option : description.options())
+                   if (option.is_positional()) text += " " + in_roff(option.kind_text());
+                 text += "\n" + in_roff(command.sentence) + "\n";
+                 for (const Option& option : description.options())
+                   if (!option.is_positional())
+                     text += fmt::format(".TP\n.B \\-\\-{} {}\n{}\n", in_roff(option.name()),
+                                         in_roff(option.kind_text()), in_roff(option.help_text()));
+               });
+  return text + ".SH NOTES\n" + in_roff(notes) + "\n";
+}
+
+std::string commands_as_json(const std::vector<Command>& commands) {
+  auto json = nlohmann::ordered_json::array();
+  each_command(
+      commands, [&](const std::string& name, const Command& command, const Description& description) {
+        if (command.call)
+          json.push_back({{"name", name}, {"sentence", command.sentence}, {"options", page_of(description)}});
+      });
+  return json.dump(1);
 }
 
 }  // namespace drumlin::apps

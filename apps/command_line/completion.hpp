@@ -1,26 +1,20 @@
 #pragma once
-// Completion of commands and options in a shell.
+// The commands of the program for a shell that completes words, for man, and for other programs.
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "apps/command_line/command.hpp"
 
 namespace drumlin::apps {
 
-/// The subcommands of a program or a command.
-std::vector<const CLI::App*> commands_of(const CLI::App& app);
+/// A script for the shell "bash", "zsh" or "fish" that completes commands, their subcommands, options and
+/// choices; file names elsewhere.
+std::string completion(const std::string& shell, const std::vector<Command>& commands);
 
-/// A script for bash that completes the commands of a program, their subcommands and options; file names
-/// elsewhere.
-std::string bash_completion(const CLI::App& program);
+/// A page for man, of all commands and their options; `notes` at its end.
+std::string man_page(const std::vector<Command>& commands, const std::string& notes);
 
-/// The same for zsh, by way of bash's, and for fish.
-std::string zsh_completion(const CLI::App& program);
-std::string fish_completion(const CLI::App& program);
-
-/// A page for man, of all commands and their options.
-std::string man_page(const CLI::App& program);
+/// All commands with their options, in JSON: what the Python package calls them by.
+std::string commands_as_json(const std::vector<Command>& commands);
 
 }  // namespace drumlin::apps

@@ -1,6 +1,5 @@
-// drumlin accept: signs a result folder anew after an edit by hand.
-#include "apps/output/accept.hpp"
-
+// drumlin accept: a result folder as it is now, edits by hand included, is taken for what it should be. The
+// reason becomes part of the provenance of what is read from it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "apps/command_line/command.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/basics/run_status.hpp"
@@ -19,6 +19,16 @@ namespace drumlin::apps {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct AcceptOptions {
+  fs::path folder;
+  std::string reason;
+
+  void describe(Description& d) {
+    d.add("folder", folder, "DIR", "Result folder of any command").required();
+    d.add("--reason", reason, "TEXT", "Why, in one line: it is told wherever the folder is read").required();
+  }
+};
 
 constexpr std::size_t longest_reason = 500, most_named = 5;
 
@@ -142,8 +152,8 @@ std::vector<fs::path> result_folders(const fs::path& folder) {
   return found;
 }
 
-}  // namespace
-
+/// Writes the manifests of the folder and of the result folders within anew, where they are not as they say;
+/// also the first one of a folder that a version without manifests has left.
 int accept(const AcceptOptions& options) {
   const std::string reason = checked_reason(options.reason);
   if (!fs::is_directory(options.folder)) throw InputError(options.folder.string() + ": no such folder");
@@ -163,6 +173,12 @@ int accept(const AcceptOptions& options) {
   }
   print_out(said.empty() ? options.folder.string() + ": all files are as they were written\n" : said);
   return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+Command accept_command() {
+  return command("accept", "Takes a result folder as it is after an edit by hand", accept);
 }
 
 }  // namespace drumlin::apps

@@ -5,12 +5,10 @@
 
 #include "apps/commands/compare_inputs.hpp"
 #include "apps/commands/compare_record.hpp"
+#include "apps/commands/study.hpp"
 #include "apps/json/json_file.hpp"
-#include "apps/output/commands.hpp"
-#include "apps/output/output_folder.hpp"
 #include "apps/output/pending_figures.hpp"
-#include "apps/process/asked.hpp"
-#include "apps/process/standard_streams.hpp"
+#include "apps/output/results.hpp"
 #include "coupling/comparison/layers.hpp"
 #include "coupling/core/basics/errors.hpp"
 
@@ -39,40 +37,34 @@ ComparedRuns read_runs(const CompareOptions& options) {
 }  // namespace
 
 int compare(const CompareOptions& options) {
-  const fs::path finished = options.output / "comparison.json";
-  const auto sum_of = [](const std::optional<fs::path>& folder) {
-    return folder ? measured_run_sum(*folder) : "";
-  };
-  const std::string asked =
-      asked_sum({measured_run_sum(options.run), measured_run_sum(options.flow_run), sum_of(options.floor),
-                 sum_of(options.beside), options.registration, options.accept_unsteady});
-  if (options.existing == ExistingOutput::resume && is_complete(finished))
-    return done_already(options.output, asked);
-  const ComparedRuns runs = read_runs(options);
-  const bool drums = coupling::geometry_of(runs.first.compared.profiles) == Geometry::drum;
-  if (options.beside && !drums)
-    throw InputError({InputProblem{.file = "",
-                                   .key = "--beside",
-                                   .what = "a flow in layers has no targets",
-                                   .allowed = "absent, or runs of a drum"}});
-  const ComparisonReport report = drums ? drum_report(runs, options) : layer_report(runs, options);
+  const bool is_pair = !options.run.empty() && !options.flow_run.empty();
+  if (options.study.empty() ? !is_pair : !options.run.empty())
+    throw InputError("compare: either RUN and FLOWRUN, or --study DIR... is required");
+  if (!options.study.empty())
+    return compare_study(results_of(options, "compare --study", options.output, "study.json"), options.study,
+                         options.limits);
+  return make_results(
+      results_of(options, "compare", options.output, "comparison.json"), [&](Results& results) -> Made {
+        const ComparedRuns runs = read_runs(options);
+        const bool drums = coupling::geometry_of(runs.first.compared.profiles) == Geometry::drum;
+        if (options.beside && !drums)
+          throw InputError({InputProblem{.file = "",
+                                         .key = "--beside",
+                                         .what = "a flow in layers has no targets",
+                                         .allowed = "absent, or runs of a drum"}});
+        const ComparisonReport report = drums ? drum_report(runs, options) : layer_report(runs, options);
+        const fs::path &folder = results.begin(), file = folder / "comparison.json";
+        report.write_overlays(folder);
+        note_pending_figures(folder);
+        write_json(file, *report.content);
+        return {fmt::format("{}report: {}\n", report.summary,
+                            fs::absolute(options.output / "index.html").string()),
+                draw_pending_figures(folder, report.figures(folder, file), ResultPage{report.page, file})};
+      });
+}
 
-  std::vector<fs::path> read{options.run, options.flow_run};
-  for (const auto& another : {options.floor, options.beside})
-    if (another) read.push_back(*another);
-  StagedOutput output({options.output, options.existing, "compare", read, {}, asked});
-  const fs::path& folder = output.folder();
-  report.write_overlays(folder);
-  note_pending_figures(folder);
-  const fs::path file = folder / "comparison.json";
-  write_json(file, *report.content);
-  const auto failures =
-      draw_pending_figures(folder, report.figures(folder, file), ResultPage{report.page, file});
-  output.publish();
-  print_out(
-      fmt::format("{}report: {}\n", report.summary, fs::absolute(options.output / "index.html").string()));
-  throw_if_figures_failed(finished, failures);
-  return static_cast<int>(ExitCode::done);
+Command compare_command() {
+  return command("compare", "Sets a run and a continuum flow side by side", compare);
 }
 
 }  // namespace drumlin::apps

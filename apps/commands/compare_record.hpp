@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/commands/compare.hpp"
 #include "apps/commands/compare_inputs.hpp"
-#include "apps/output/commands.hpp"
 #include "apps/output/pending_figures.hpp"
 
 namespace drumlin::apps {

@@ -5,10 +5,10 @@
 
 #include <numbers>
 
-#include "apps/output/commands.hpp"
-#include "apps/output/output_folder.hpp"
+#include "apps/command_line/command.hpp"
+#include "apps/commands/run_report.hpp"
+#include "apps/output/results.hpp"
 #include "apps/process/progress.hpp"
-#include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/basics/provenance.hpp"
 #include "coupling/core/documents/csv.hpp"
@@ -27,6 +27,25 @@ namespace {
 
 namespace fs = std::filesystem;
 using particles::Rectangle;
+
+struct HistoryOptions {
+  fs::path run;
+  std::optional<fs::path> output;
+  std::vector<double> box;  ///< x_min, x_max, z_min, z_max in d, laboratory axes; empty: walls alone
+  int sectors = 36;         ///< of a circular container
+  ExistingOutput existing = ExistingOutput::refuse;
+
+  void describe(Description& d) {
+    d.add("run", run, "RUN", "Folder of a run, finished or not").required();
+    d.add("--box", box, "X_MIN,X_MAX,Z_MIN,Z_MAX",
+          "Region whose mean stress, fabric and strain are written, in d, in the axes of the scene; absent: "
+          "the walls alone");
+    d.add("--sectors", sectors, "", at_least(1, 10000),
+          "Sectors of a circular container in which its tractions are averaged");
+    d.output(output, "DIR", "Folder for the tables; standard: RUN/history");
+    d.existing(existing);
+  }
+};
 
 constexpr double degrees = 180 / std::numbers::pi;
 
@@ -52,19 +71,6 @@ std::string settings_text(const HistoryOptions& options) {
   return fmt::format("# box = {}\n# sectors = {}\n",
                      options.box.empty() ? "none" : fmt::format("{}", fmt::join(options.box, " ")),
                      options.sectors);
-}
-
-/// Whether an earlier call has finished this, of the run as it is now. Throws InputError where it was asked
-/// for something else, or the run has changed since.
-bool is_done(const fs::path& folder, const particles::RunFolder& run, const HistoryOptions& options) {
-  if (!holds_results(folder, "walls.csv")) return false;
-  const std::string again = fmt::format("drumlin history {} --overwrite", options.run.string());
-  const ResultFolder results = open_result_folder(folder);
-  check_source(results, run.files, again);
-  if (file_text(checked_file(results, "walls.csv")).find(settings_text(options)) == std::string::npos)
-    throw InputError(fmt::format("{}: holds the history of another box or other sectors; {} makes it anew",
-                                 folder.string(), again));
-  return true;
 }
 
 /// The tables, line by line.
@@ -151,38 +157,40 @@ void check_box(const std::vector<double>& box) {
         "--box: X_MIN,X_MAX,Z_MIN,Z_MAX in d, each less than its partner, in the axes of the scene");
 }
 
-}  // namespace
-
 int history(const HistoryOptions& options) {
   check_box(options.box);
-  const particles::RunFolder run = particles::read_run_folder(options.run);
   const fs::path folder = options.output.value_or(options.run / "history");
-  if (options.existing == ExistingOutput::resume && is_done(folder, run, options)) {
-    print_out(fmt::format("{}: done already\n", folder.string()));
-    return static_cast<int>(ExitCode::done);
-  }
-  if (run.snapshots.empty()) throw InputError(run.folder.string() + ": holds no snapshots");
-  StagedOutput output(
-      {folder, options.existing, "history", {options.run / "run.json"}, manifest_sum(*run.files.manifest)});
-  Tables tables(run, options);
-  Progress progress;
-  std::size_t done = 0;
-  for (const fs::path& file : run.snapshots) {
-    tables.add(run, file);
-    ++done;
-    if (progress.due()) progress.show(fmt::format("history  {} of {} snapshots", done, run.snapshots.size()));
-  }
-  progress.finish();
-  if (!options.box.empty()) replace_file(output.folder() / "region.csv", tables.region);
-  replace_file(output.folder() / "surface.csv", tables.surface);
-  replace_file(output.folder() / "tractions.csv", tables.tractions);
-  replace_file(output.folder() / "walls.csv", tables.walls);
-  output.publish();
-  print_out(
-      fmt::format("{}{}: {} snapshots\n", folder.string(), run.scene.reduced ? " (reduced)" : "", done));
-  if (!run.finished())
-    print_out(fmt::format("  the run is unfinished (status {}): as far as it went\n", name_of(run.status)));
-  return static_cast<int>(ExitCode::done);
+  ResultsRequest asked = results_of(options, "history", folder, "walls.csv");
+  asked.computed_from = options.run;
+  return make_results(asked, [&](Results& results) -> Made {
+    const particles::RunFolder run = particles::read_run_folder(options.run);
+    if (run.snapshots.empty()) throw InputError(run.folder.string() + ": holds no snapshots");
+    const fs::path& made = results.begin();
+    Tables tables(run, options);
+    Progress progress;
+    std::size_t done = 0;
+    for (const fs::path& file : run.snapshots) {
+      tables.add(run, file);
+      ++done;
+      if (progress.due())
+        progress.show(fmt::format("history  {} of {} snapshots", done, run.snapshots.size()));
+    }
+    progress.finish();
+    if (!options.box.empty()) replace_file(made / "region.csv", tables.region);
+    replace_file(made / "surface.csv", tables.surface);
+    replace_file(made / "tractions.csv", tables.tractions);
+    replace_file(made / "walls.csv", tables.walls);
+    return {fmt::format("{}{}: {} snapshots\n{}", folder.string(), run.scene.reduced ? " (reduced)" : "",
+                        done, as_far_as_it_went(run))};
+  });
+}
+
+}  // namespace
+
+Command history_command() {
+  return command("history",
+                 "Stress and strain of a region, forces on walls, angle of the surface, snapshot by snapshot",
+                 history);
 }
 
 }  // namespace drumlin::apps

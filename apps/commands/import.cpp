@@ -4,10 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/command_line/command.hpp"
 #include "apps/json/json_file.hpp"
-#include "apps/output/commands.hpp"
 #include "apps/output/figures.hpp"
-#include "apps/output/output_folder.hpp"
+#include "apps/output/results.hpp"
 #include "apps/process/asked.hpp"
 #include "apps/process/progress.hpp"
 #include "apps/process/standard_streams.hpp"
@@ -21,6 +21,24 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+struct ImportOptions {
+  std::optional<fs::path> description, output;
+  std::vector<std::string> overrides;
+  bool keys = false, markdown = false;
+  ExistingOutput existing = ExistingOutput::refuse;
+
+  void describe(Description& d) {
+    d.add("description", description, "DESCRIPTION.toml", "What the files are (docs/formats/import.md)")
+        .decides(Decides::nothing);
+    d.output(output, "RUN", "Folder for the snapshots");
+    d.changes(overrides);
+    d.add("--keys", keys, "Lists every key of a description with unit, range, default and meaning")
+        .decides(Decides::nothing);
+    d.add("--markdown", markdown, "With --keys: as a table in Markdown").decides(Decides::nothing);
+    d.existing(existing);
+  }
+};
 
 std::vector<std::string> texts_of(const std::vector<fs::path>& files) { return {files.begin(), files.end()}; }
 
@@ -43,34 +61,33 @@ Json report_of(const particles::ImportDescription& description, const fs::path& 
           {"provenance", to_json(provenance())}};
 }
 
-void print_summary(const fs::path& run, const particles::ImportDescription& description, const Json& report) {
+std::string summary_of(const fs::path& run, const particles::ImportDescription& description,
+                       const Json& report) {
   const auto number = [&](const char* key) { return report.at(key).get<double>(); };
   const auto texts = [&](const char* key) { return report.at(key).get<std::vector<std::string>>(); };
-  print_out(fmt::format("{}{}: {:.0f} snapshots of {:.0f} grains, {:.6g} s to {:.6g} s\n", run.string(),
-                        description.reduced ? " (reduced)" : "", number("snapshots"), number("grains"),
-                        number("first_time_s"), number("last_time_s")));
+  std::string text = fmt::format("{}{}: {:.0f} snapshots of {:.0f} grains, {:.6g} s to {:.6g} s\n",
+                                 run.string(), description.reduced ? " (reduced)" : "", number("snapshots"),
+                                 number("grains"), number("first_time_s"), number("last_time_s"));
   const Json& scales = report.at("scales");
-  print_out(fmt::format("  d = {:.6g} mm, sqrt(d/g) = {:.6g} s; velocities are those {}\n",
-                        scales.at("length_m").get<double>() * 1e3, scales.at("time_s").get<double>(),
-                        description.grains.velocities == particles::ImportedVelocities::given
-                            ? "at the instant of the snapshot"
-                            : "since the snapshot before"));
-  if (report.at("with_contacts"))
-    print_out(fmt::format("  {:.0f} contacts that carry a force\n", number("contacts")));
-  else
-    print_out("  without contacts: no stress will be measured\n");
-  if (!report.at("with_spin")) print_out("  without spin\n");
+  text += fmt::format("  d = {:.6g} mm, sqrt(d/g) = {:.6g} s; velocities are those {}\n",
+                      scales.at("length_m").get<double>() * 1e3, scales.at("time_s").get<double>(),
+                      description.grains.velocities == particles::ImportedVelocities::given
+                          ? "at the instant of the snapshot"
+                          : "since the snapshot before");
+  text += report.at("with_contacts")
+              ? fmt::format("  {:.0f} contacts that carry a force\n", number("contacts"))
+              : "  without contacts: no stress will be measured\n";
+  if (!report.at("with_spin")) text += "  without spin\n";
   if (!report.at("unused_period_m").is_null())
-    print_out(
-        fmt::format("  the dump is periodic over {:g} m along x, the description is not: grains and contacts "
-                    "do not reach across its border (periodic_x)\n",
-                    number("unused_period_m")));
-  for (const std::string& snapshot : texts("left_out")) print_out(fmt::format("  left out: {}\n", snapshot));
+    text += fmt::format(
+        "  the dump is periodic over {:g} m along x, the description is not: grains and contacts "
+        "do not reach across its border (periodic_x)\n",
+        number("unused_period_m"));
+  for (const std::string& snapshot : texts("left_out")) text += fmt::format("  left out: {}\n", snapshot);
   if (!report.at("unused_columns").empty())
-    print_out(fmt::format("  columns that were not used: {}\n", fmt::join(texts("unused_columns"), ", ")));
+    text += fmt::format("  columns that were not used: {}\n", fmt::join(texts("unused_columns"), ", "));
+  return text;
 }
-
-}  // namespace
 
 int import_foreign(const ImportOptions& options) {
   if (options.keys) {
@@ -97,27 +114,32 @@ int import_foreign(const ImportOptions& options) {
       inputs.push_back(input_sum(file));
     }
   }
-  const std::string asked = asked_sum(inputs);
-  if (options.existing == ExistingOutput::resume && holds_results(run, "run.json"))
-    return done_already(run, asked);
-  StagedOutput output({run, options.existing, "import", {folder}, {}, asked});
-  make_folders(output.folder() / "snapshots");
-  replace_file(output.folder() / "import.toml", particles::import_description_text(description));
-
-  const Json given{{"output", output.folder().string()},
-                   {"files", {{"grains", texts_of(grains)}, {"contacts", texts_of(contacts)}}}};
-  Progress progress;
-  Json report;
-  work_for_script("../importing/command.py", [&](const Json& so_far) {
-    if (report = so_far; progress.due() && !report.empty())
-      progress.show(fmt::format("import  {} snapshots", report.at("snapshots").dump()));
-    return given;
+  ResultsRequest request = results_of(options, "import", run, "run.json", inputs);
+  request.inputs = {folder};
+  return make_results(request, [&](Results& results) -> Made {
+    const fs::path& made = results.begin();
+    make_folders(made / "snapshots");
+    replace_file(made / "import.toml", particles::import_description_text(description));
+    const Json given{{"output", made.string()},
+                     {"files", {{"grains", texts_of(grains)}, {"contacts", texts_of(contacts)}}}};
+    Progress progress;
+    Json report;
+    work_for_script("../importing/command.py", [&](const Json& so_far) {
+      if (report = so_far; progress.due() && !report.empty())
+        progress.show(fmt::format("import  {} snapshots", report.at("snapshots").dump()));
+      return given;
+    });
+    progress.finish();
+    write_json(made / "run.json", report_of(description, *options.description, names, report));
+    return {summary_of(run, description, report)};
   });
-  progress.finish();
-  write_json(output.folder() / "run.json", report_of(description, *options.description, names, report));
-  output.publish();
-  print_summary(run, description, report);
-  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+Command import_command() {
+  return command("import", "Makes a run folder of another program's snapshots (CSV, LAMMPS dumps)",
+                 import_foreign);
 }
 
 }  // namespace drumlin::apps

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "apps/command_line/command.hpp"
 #include "apps/commands/scene_templates.hpp"
-#include "apps/output/commands.hpp"
 #include "apps/output/output_folder.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
@@ -13,6 +13,22 @@
 namespace drumlin::apps {
 
 namespace {
+
+namespace fs = std::filesystem;
+
+struct NewSceneOptions {
+  std::string kind;
+  fs::path output;
+  ExistingOutput existing = ExistingOutput::refuse;
+
+  void describe(Description& d) {
+    std::vector<std::string> kinds;
+    for (const SceneTemplate& one : all_scene_templates()) kinds.emplace_back(one.name);
+    d.add("kind", kind, "KIND", one_of(kinds), "What flows").required();
+    d.output(output, "SCENE.toml", "File for the scene");
+    d.overwrite(existing, "Replaces a file that is there");
+  }
+};
 
 /// Whether a name can stand in a comment, and in a command that somebody copies from it.
 bool is_plain(const std::string& name) {
@@ -33,13 +49,10 @@ std::string named(std::string_view text, const std::string& file) {
   return result;
 }
 
-}  // namespace
-
 int new_scene(const NewSceneOptions& options) {
   const auto& known = all_scene_templates();
   const auto found = std::find_if(known.begin(), known.end(),
                                   [&](const SceneTemplate& one) { return one.name == options.kind; });
-  if (found == known.end()) throw InputError(options.kind + ": is no kind of scene that is known here");
   const FolderLock lock = prepare_output_file(options.output, options.existing);
   replace_file(options.output, named(found->text, options.output.string()));
   print_out(
@@ -47,5 +60,9 @@ int new_scene(const NewSceneOptions& options) {
                   options.output.string()));
   return static_cast<int>(ExitCode::done);
 }
+
+}  // namespace
+
+Command new_scene_command() { return command("new", "Writes a commented scene to start from", new_scene); }
 
 }  // namespace drumlin::apps

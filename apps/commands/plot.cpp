@@ -6,11 +6,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/command_line/command.hpp"
 #include "apps/commands/plot_drawing.hpp"
+#include "apps/commands/run_report.hpp"
 #include "apps/json/json_file.hpp"
-#include "apps/output/commands.hpp"
-#include "apps/output/output_folder.hpp"
-#include "apps/process/asked.hpp"
+#include "apps/output/results.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
 
@@ -32,36 +32,35 @@ void check_window(const std::vector<double>& window) {
                     fmt::join(window, ",")));
 }
 
-}  // namespace
-
 int plot(const PlotOptions& options) {
   check_window(options.window);
-  const particles::RunFolder run = particles::read_run_folder(options.run);
   const fs::path folder = options.output.value_or(options.run / "plots");
-  const std::string asked = asked_sum({input_sum(options.run), options.snapshot, options.animation,
-                                       options.player, options.window, options.color, options.every});
-  if (options.existing == ExistingOutput::resume && holds_results(folder, "plots.json"))
-    return done_already(folder, asked);
-  const Json report = read_json(options.run / "run.json", "drumlin-run-1");
-  const Json drawing = drawing_of(run, report, options);
-  StagedOutput output({folder, options.existing, "plot", {options.run / "run.json"}, {}, asked});
-  if (options.player)
-    print_out(fmt::format("player.html: {} of {} snapshots, about {:.1f} MB\n",
-                          drawing["player"]["frames"].size(), run.snapshots.size(),
-                          bytes_of_player(drawing["player"]) / 1e6));
-  flush_out();
-  Json drawn = drawn_run(drawing, output.folder());
-  add_accepted_edits(drawn, accepted_edits(run.files));
-  write_json(output.folder() / "plots.json", drawn);
-  output.publish();
-  print_out(fmt::format("{}{}\n", folder.string(), run.scene.reduced ? " (reduced)" : ""));
-  if (!run.finished())
-    print_out(
-        fmt::format("  the run is unfinished (status {}): drawn as far as it went\n", name_of(run.status)));
-  if (run.snapshots.empty()) print_out("  the run holds no snapshots: no pictures of grains\n");
-  for (const auto& [file, shows] : drawn["figures"].items())
-    print_out(fmt::format("  {:16} {}\n", file, shows.get<std::string>()));
-  return static_cast<int>(ExitCode::done);
+  return make_results(results_of(options, "plot", folder, "plots.json"), [&](Results& results) -> Made {
+    const particles::RunFolder run = particles::read_run_folder(options.run);
+    const Json drawing = drawing_of(run, read_json(options.run / "run.json", "drumlin-run-1"), options);
+    const fs::path& made = results.begin();
+    if (options.player) {
+      print_out(fmt::format("player.html: {} of {} snapshots, about {:.1f} MB\n",
+                            drawing["player"]["frames"].size(), run.snapshots.size(),
+                            bytes_of_player(drawing["player"]) / 1e6));
+      flush_out();
+    }
+    Json drawn = drawn_run(drawing, made);
+    add_accepted_edits(drawn, accepted_edits(run.files));
+    write_json(made / "plots.json", drawn);
+    std::string said = fmt::format("{}{}\n{}", folder.string(), run.scene.reduced ? " (reduced)" : "",
+                                   as_far_as_it_went(run));
+    if (run.snapshots.empty()) said += "  the run holds no snapshots: no pictures of grains\n";
+    for (const auto& [file, shows] : drawn["figures"].items())
+      said += fmt::format("  {:16} {}\n", file, shows.get<std::string>());
+    return {said};
+  });
+}
+
+}  // namespace
+
+Command plot_command() {
+  return command("plot", "Draws a run: grains, force chains, accuracy and cost", plot);
 }
 
 }  // namespace drumlin::apps

@@ -161,7 +161,7 @@ Json drawing_of(const particles::RunFolder& run, const Json& report, const PlotO
                                  run.snapshots.size()));
   if (options.player && run.snapshots.empty())
     throw InputError(run.folder.string() + ": a player needs a snapshot, there is none");
-  const auto every = static_cast<std::size_t>(options.every);
+  const auto every = static_cast<std::size_t>(options.every.value_or(0));
   if (options.animation || (every > 0 && !options.player && !run.snapshots.empty()))
     drawing["frames"] = frames_of(run, every, most_frames);
   if (options.player) drawing["player"] = player_of(run, every);

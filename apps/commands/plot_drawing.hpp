@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 
-#include "apps/output/plot_options.hpp"
+#include "apps/commands/plot_options.hpp"
 #include "particles/io/run_folder.hpp"
 
 namespace drumlin::apps {

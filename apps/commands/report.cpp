@@ -3,13 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/command_line/command.hpp"
 #include "apps/commands/effects_text.hpp"
 #include "apps/commands/plot_drawing.hpp"
 #include "apps/json/json_file.hpp"
-#include "apps/output/commands.hpp"
 #include "apps/output/figures.hpp"
-#include "apps/output/output_folder.hpp"
-#include "apps/process/asked.hpp"
+#include "apps/output/results.hpp"
+#include "apps/process/interruption.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/basics/provenance.hpp"
@@ -23,6 +23,23 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+struct ReportOptions {
+  fs::path run;
+  std::optional<fs::path> output, bundle;
+  ExistingOutput existing = ExistingOutput::refuse;
+
+  void describe(Description& d) {
+    d.add("run", run, "RUN", "Folder of a run, finished or not, measured or not")
+        .required()
+        .decides(Decides::measured);
+    d.output(output, "DIR", "Folder for the page, open its index.html; standard: RUN/report");
+    d.add("--bundle", bundle, "FILE.tar.gz",
+          "In place of a page: scene, log and versions in one small file, for a report of a fault")
+        .decides(Decides::nothing);
+    d.existing(existing);
+  }
+};
 
 Json scene_of(const particles::RunFolder& run) {
   const particles::TimePlan plan = particles::time_plan(run.scene, run.scales);
@@ -82,42 +99,42 @@ Json content_of(const particles::RunFolder& run, const Json& report, const Json&
   return content;
 }
 
-}  // namespace
-
 int report(const ReportOptions& options) {
   if (options.bundle) {
     if (!fs::exists(options.run / "scene.toml"))
       throw InputError(options.run.string() + ": is no folder of a run");
+    outlive_readers();
     draw_figures("bundle.py", {options.run.string(), options.bundle->string(), "drumlin " + version_text()});
     print_out(fmt::format("bundle: {}\n", fs::absolute(*options.bundle).string()));
     return static_cast<int>(ExitCode::done);
   }
-  const particles::RunFolder run = particles::read_run_folder(options.run);
   const fs::path folder = options.output.value_or(options.run / "report");
-  const std::string asked = asked_sum({measured_run_sum(options.run)});
-  if (options.existing == ExistingOutput::resume && holds_results(folder, "report.json"))
-    return done_already(folder, asked);
-  const Json record = read_json(options.run / "run.json", "drumlin-run-1");
-  PlotOptions pictures;
-  pictures.run = options.run;
-  pictures.player = !run.snapshots.empty();
-  const Json drawing = drawing_of(run, record, pictures);
-  StagedOutput output({folder, options.existing, "report", {options.run / "run.json"}, {}, asked});
-  if (pictures.player) {
-    print_out(fmt::format("player.html: about {:.1f} MB\n", bytes_of_player(drawing["player"]) / 1e6));
-    flush_out();
-  }
-  Json content = content_of(run, record, drawn_run(drawing, output.folder()));
-  add_measured(run, output.folder(), content);
-  const fs::path file = output.folder() / "report.json";
-  write_json(file, content);
-  draw_figures("../pages/write_page.py", {"run.html", file.string(), output.folder().string()});
-  output.publish();
-  print_out(fmt::format("report: {}{}\n", fs::absolute(folder / "index.html").string(),
-                        run.scene.reduced ? " (reduced)" : ""));
-  if (content["measured"].is_null())
-    print_out(fmt::format("  without measurements: {}\n", content["measured_missing"].get<std::string>()));
-  return static_cast<int>(ExitCode::done);
+  return make_results(results_of(options, "report", folder, "report.json"), [&](Results& results) -> Made {
+    const particles::RunFolder run = particles::read_run_folder(options.run);
+    const Json record = read_json(options.run / "run.json", "drumlin-run-1");
+    PlotOptions pictures;
+    pictures.run = options.run;
+    pictures.player = !run.snapshots.empty();
+    const Json drawing = drawing_of(run, record, pictures);
+    const fs::path& made = results.begin();
+    if (pictures.player) {
+      print_out(fmt::format("player.html: about {:.1f} MB\n", bytes_of_player(drawing["player"]) / 1e6));
+      flush_out();
+    }
+    Json content = content_of(run, record, drawn_run(drawing, made));
+    add_measured(run, made, content);
+    write_json(made / "report.json", content);
+    draw_figures("../pages/write_page.py", {"run.html", (made / "report.json").string(), made.string()});
+    std::string said = fmt::format("report: {}{}\n", fs::absolute(folder / "index.html").string(),
+                                   run.scene.reduced ? " (reduced)" : "");
+    if (content["measured"].is_null())
+      said += fmt::format("  without measurements: {}\n", content["measured_missing"].get<std::string>());
+    return {said};
+  });
 }
+
+}  // namespace
+
+Command report_command() { return command("report", "Puts a run on one page, with a player", report); }
 
 }  // namespace drumlin::apps

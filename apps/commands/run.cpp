@@ -1,5 +1,7 @@
 // drumlin run: a particle run from a scene to snapshots, log and run.json; interruptible, and continued bit
 // for bit.
+#include "apps/commands/run.hpp"
+
 #include <fmt/format.h>
 
 #include <chrono>
@@ -19,7 +21,6 @@
 #include "apps/commands/start_grains.hpp"
 #include "apps/commands/wall_table.hpp"
 #include "apps/json/json_file.hpp"
-#include "apps/output/commands.hpp"
 #include "apps/output/output_folder.hpp"
 #include "apps/process/interruption.hpp"
 #include "apps/process/progress.hpp"
@@ -83,7 +84,7 @@ class ParticleRun {
     }
     save_checkpoint();
     writer_.wait();
-    if (options_.accuracy_seconds > 0) {
+    if (options_.accuracy_seconds) {
       try {
         tell_accuracy();
       } catch (const Interrupted& by) {
@@ -108,7 +109,7 @@ class ParticleRun {
 
   void tell_accuracy() {
     stretches_ = to_json(particles::paired_stretches(
-        scene_, simulation_.state(), options_.accuracy_seconds, options_.threads, [&] {
+        scene_, simulation_.state(), *options_.accuracy_seconds, options_.threads, [&] {
           if (progress_.due()) progress_.show("run finished; stretches for its accuracy");
           if (const int signal = interruption()) throw Interrupted{signal};
         }));
@@ -323,10 +324,11 @@ void read_lists_from(const fs::path& folder, particles::Scene& scene) {
 }
 
 /// Stretches are cut into blocks of whole steps, and must come to an end.
-void check_stretches(double seconds, const particles::Scene& scene) {
+void check_stretches(std::optional<double> asked, const particles::Scene& scene) {
+  if (!asked) return;
   constexpr double most_steps = 1e9;
-  const double h = scene.stages.back().time_step_s, steps = seconds / h;
-  if (seconds == 0 || (steps >= particles::stretch_blocks && steps <= most_steps)) return;
+  const double seconds = *asked, h = scene.stages.back().time_step_s, steps = seconds / h;
+  if (steps >= particles::stretch_blocks && steps <= most_steps) return;
   throw InputError(
       {InputProblem{"", 0, 0, "--accuracy-seconds", fmt::format("is {:g} s, {:.3g} steps", seconds, steps),
                     fmt::format("{:g} to {:g} s", particles::stretch_blocks * h, most_steps * h)}});
@@ -348,7 +350,7 @@ int run(const RunOptions& options, particles::World* world) {
   std::vector<fs::path> inputs{options.scene};
   for (const auto* list : lists_of(scene)) inputs.push_back(list->file);
   const CaughtInterruptions caught;
-  const bool longer = options.extend_seconds > 0;
+  const bool longer = options.extend_seconds.has_value();
   const ExistingOutput existing = longer ? ExistingOutput::resume : options.existing;
   std::string resolved = particles::scene_text(as_recorded(scene));
   if (options.existing == ExistingOutput::resume && !longer && is_finished(options.output, scene, resolved))
@@ -360,7 +362,7 @@ int run(const RunOptions& options, particles::World* world) {
     from = checkpoint_in(options.output, resolved);
   }
   if (longer) {
-    extend(output, options.extend_seconds, scene, from);
+    extend(output, *options.extend_seconds, scene, from);
     resolved = from->scene;
   }
   cut_back(output, from);
@@ -381,6 +383,12 @@ int run(const RunOptions& options, particles::World* world) {
   read_lists_from(options.output, scene);
   return ParticleRun(options, output, scene, resolved, std::move(from), started_from, Followers(world))
       .execute();
+}
+
+Command run_command() {
+  return command<RunOptions>("run", "Runs a particle scene", [](const RunOptions& options) {
+    return options.ranks ? run_by_mpirun(options) : run(options);
+  });
 }
 
 }  // namespace drumlin::apps

@@ -1,11 +1,11 @@
 // drumlin run --ranks: starts drumlin-run, which stands beside this executable, by mpirun, and ends as it
 // ends.
-#include <fmt/format.h>
+#include "apps/commands/run.hpp"
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
-#include "apps/output/commands.hpp"
 #include "apps/process/interruption.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/machine/child_process.hpp"
@@ -14,21 +14,12 @@
 namespace drumlin::apps {
 namespace {
 
-std::vector<std::string> words_of(const RunOptions& options) {
-  const int ranks = *options.ranks;
+std::vector<std::string> words_for(RunOptions options) {
+  const int ranks = *std::exchange(options.ranks, std::nullopt);
+  options.threads = std::max(1, options.threads / ranks);
   std::vector<std::string> words = {"-n", std::to_string(ranks), program_beside("drumlin-run").string()};
-  if (!options.scene.empty()) words.push_back(options.scene.string());
-  words.insert(words.end(), {"-o", options.output.string()});
-  words.insert(words.end(), {"--threads", std::to_string(std::max(1, options.threads / ranks))});
-  for (const std::string& change : options.overrides) words.insert(words.end(), {"--set", change});
-  if (options.accuracy) words.insert(words.end(), {"--accuracy", options.accuracy->string()});
-  const auto seconds = [&](const char* option, double number) {
-    if (number > 0) words.insert(words.end(), {option, fmt::format("{}", number)});
-  };
-  seconds("--accuracy-seconds", options.accuracy_seconds);
-  seconds("--extend", options.extend_seconds);
-  if (options.existing == ExistingOutput::resume) words.push_back("--resume");
-  if (options.existing == ExistingOutput::overwrite) words.push_back("--overwrite");
+  const std::vector<std::string> of_rank = words_of(described(options));
+  words.insert(words.end(), of_rank.begin(), of_rank.end());
   return words;
 }
 
@@ -37,7 +28,7 @@ constexpr int files_of_mpirun = 32, files_of_rank = 16;
 }  // namespace
 
 int run_by_mpirun(const RunOptions& options) {
-  ProcessRequest request{.program = "mpirun", .words = words_of(options)};
+  ProcessRequest request{.program = "mpirun", .words = words_for(options)};
   require_open_files(files_of_mpirun + files_of_rank * *options.ranks);
   request.environment = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
   if (*options.ranks > processors_at_hand()) {  // who waits leaves its processor to others

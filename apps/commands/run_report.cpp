@@ -242,6 +242,12 @@ nlohmann::ordered_json run_report(const RunProgress& run, RunStatus status) {
   return report;
 }
 
+std::string as_far_as_it_went(const particles::RunFolder& run) {
+  return run.finished()
+             ? ""
+             : fmt::format("  the run is unfinished (status {}): as far as it went\n", name_of(run.status));
+}
+
 std::string run_summary(const RunProgress& run) {
   const particles::RunTotals& t = run.totals;
   const auto& state = run.simulation.state();

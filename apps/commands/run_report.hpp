@@ -8,6 +8,7 @@
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/basics/run_status.hpp"
 #include "particles/io/checkpoint_file.hpp"
+#include "particles/io/run_folder.hpp"
 #include "particles/scene/scene.hpp"
 
 namespace drumlin::apps {
@@ -45,6 +46,9 @@ nlohmann::ordered_json run_report(const RunProgress&, RunStatus status);
 std::vector<std::string> run_warnings(const RunProgress&);
 /// The last of them; empty where nothing overlaps.
 std::string start_warning(const particles::StartOverlaps&);
+
+/// Of a run that is unfinished, for who reads it so far; else empty.
+std::string as_far_as_it_went(const particles::RunFolder& run);
 
 /// Steps, accuracy and the table of where the time went, in lines for the user; the warnings end it.
 std::string run_summary(const RunProgress&);

@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "apps/command_line/command.hpp"
 #include "apps/commands/effects_text.hpp"
 #include "apps/commands/expected_output.hpp"
 #include "apps/commands/run_report.hpp"
 #include "apps/commands/start_grains.hpp"
-#include "apps/output/commands.hpp"
 #include "apps/process/program_files.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/documents/document.hpp"
@@ -21,8 +21,28 @@ namespace drumlin::apps {
 
 namespace {
 
+struct SceneOptions {
+  std::filesystem::path scene;
+  std::vector<std::string> overrides;
+
+  void describe(Description& d) {
+    d.scene(scene, "Scene file");
+    d.changes(overrides);
+  }
+};
+
+struct KeysOptions {
+  bool markdown = false;
+
+  void describe(Description& d) { d.add("--markdown", markdown, "As a table in Markdown"); }
+};
+
+struct NoOptions {
+  void describe(Description&) {}
+};
+
 /// Makes the simulation too: what only shows there is a fault of the scene.
-void check(const SceneOptions& options) {
+int check(const SceneOptions& options) {
   particles::Scene scene = particles::read_scene(options.scene, options.overrides);
   (void)take_over_grains(scene);
   const Scales scales = scales_of(scene);
@@ -58,10 +78,11 @@ void check(const SceneOptions& options) {
                                                scene, grains, plan.snapshot_steps.size(), plan.steps))));
   if (const std::string warning = start_warning(simulation.start_overlaps()); !warning.empty())
     print_out(fmt::format("warning: {}\n", warning));
+  return 0;
 }
 
 /// Names and titles, in the order of the names.
-void list() {
+int list(const NoOptions&) {
   std::vector<std::filesystem::path> scenes;
   for (const auto& file : std::filesystem::directory_iterator(data_folder() / "scenes"))
     if (file.path().extension() == ".toml") scenes.push_back(file.path());
@@ -72,27 +93,30 @@ void list() {
     const auto* text = title != nullptr ? std::get_if<std::string>(&title->value) : nullptr;
     print_out(fmt::format("{:<22} {}\n", file.stem().string(), text != nullptr ? *text : ""));
   }
+  return 0;
+}
+
+int show(const SceneOptions& options) {
+  print_out(particles::scene_text(particles::read_scene(options.scene, options.overrides)));
+  return 0;
+}
+
+int keys(const KeysOptions& options) {
+  print_out(options.markdown ? keys_as_markdown(particles::scene_keys())
+                             : keys_as_text(particles::scene_keys()));
+  return 0;
 }
 
 }  // namespace
 
-int scene(const SceneOptions& options) {
-  switch (options.action) {
-    case SceneAction::check:
-      check(options);
-      break;
-    case SceneAction::show:
-      print_out(particles::scene_text(particles::read_scene(options.scene, options.overrides)));
-      break;
-    case SceneAction::list:
-      list();
-      break;
-    case SceneAction::keys:
-      print_out(options.markdown ? keys_as_markdown(particles::scene_keys())
-                                 : keys_as_text(particles::scene_keys()));
-      break;
-  }
-  return 0;
+Command scene_command() {
+  return {"scene",
+          "Checks, shows and explains scene files",
+          nullptr,
+          {command("check", "Validates a scene and says what it amounts to", check),
+           command("show", "Prints a scene with all its defaults", show),
+           command("list", "Lists the shipped scenes, which every command finds by their names", list),
+           command("keys", "Lists every key with unit, range, default and meaning", keys)}};
 }
 
 }  // namespace drumlin::apps

@@ -5,13 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/json/json_file.hpp"
-#include "apps/output/commands.hpp"
 #include "apps/output/figures.hpp"
 #include "coupling/comparison/map_sampling.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/files/text_file.hpp"
 #include "coupling/core/hdf5/field_map_file.hpp"
 #include "coupling/core/results/plane_invariants.hpp"
+#include "particles/measurement/frame/measurement_frame.hpp"
 
 namespace drumlin::apps {
 
@@ -46,7 +46,7 @@ void add_invariants(FieldMap& map) {
 
 /// The layers below the middle of the surface that the map covers.
 ProfileSet middle_of(const FieldMap& map) {
-  const MeasureOptions usual;
+  const particles::MeasurementOptions usual;
   const double thickness = usual.layer_thickness;
   std::vector<double> z;
   for (double at = std::floor(map.grid.z_first) + 0.5; at < 0; at += thickness) z.push_back(at);

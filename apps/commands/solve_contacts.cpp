@@ -9,10 +9,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "apps/output/commands.hpp"
+#include "apps/command_line/command.hpp"
 #include "apps/output/output_folder.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
+#include "particles/lab/any_solver.hpp"
 #include "particles/lab/backward_error.hpp"
 #include "particles/lab/contact_problem_file.hpp"
 #include "particles/lab/disc_problem.hpp"
@@ -22,6 +23,37 @@ namespace drumlin::apps {
 namespace {
 
 using particles::BlockProblem;
+
+struct SolveContactsOptions {
+  std::filesystem::path problem;
+  std::string solver = "accelerated";
+  double tolerance = 1e-4;
+  double max_seconds = 60;
+  int threads = 1;
+  std::optional<std::filesystem::path> output;
+  ExistingOutput existing = ExistingOutput::refuse;
+  bool backward_error = false;
+  std::optional<int> watch;
+  bool json = false;
+
+  void describe(Description& d) {
+    d.add("problem", problem, "PROBLEM.h5", "Problem in FCLIB's fclib_local layout, spacedim 2").required();
+    d.add("--solver", solver, "", one_of(particles::any_solver_names()), "Contact solver");
+    d.add("--tolerance", tolerance, "", above(0, 10),
+          "It may stop below this residual (docs/conventions.md)");
+    d.add("--max-seconds", max_seconds, "s", above(0), "It stops after this wall time in any case");
+    d.add("--threads", threads, "", at_least(1, most_threads),
+          "Threads, of solvers that know them and W of discs; the impulses do not depend on it");
+    d.output(output, "SOL.h5",
+             "File for the solution, r, u, state and error under /solution; none is written without");
+    d.overwrite(existing, "Replaces a file of that name");
+    d.add("--backward-error", backward_error,
+          "Says how far the problem that the solution solves exactly is from this one");
+    d.add("--watch", watch, "", at_least(1, 1000000),
+          "Sweeps on so many times from the solution and counts which contacts change their state");
+    d.add("--json", json, "Prints status, residual, residual_max, sweeps, seconds as JSON");
+  }
+};
 
 /// A solved problem, and what else was asked about it.
 struct Solved : particles::SolvedContacts {
@@ -141,8 +173,6 @@ void print_text(const particles::ContactProblemFile& file, const Solved& solved,
   if (solved.changes) print_changes(*solved.changes, *options.watch);
 }
 
-}  // namespace
-
 int solve_contacts(const SolveContactsOptions& options) {
   keep_freed_memory();
   const particles::ContactProblemFile file = particles::read_contact_problem_file(options.problem);
@@ -158,6 +188,12 @@ int solve_contacts(const SolveContactsOptions& options) {
     print_text(file, solved, options);
   const bool converged = solved.report.status == particles::Status::converged;
   return static_cast<int>(converged ? ExitCode::done : ExitCode::not_converged);
+}
+
+}  // namespace
+
+Command solve_contacts_command() {
+  return command("solve-contacts", "Solves one contact problem from a file", solve_contacts);
 }
 
 }  // namespace drumlin::apps

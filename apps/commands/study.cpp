@@ -1,23 +1,22 @@
 // drumlin measure --study, drumlin compare --study, drumlin score: checks the folders, compares their pairs,
 // and starts drumlin.study of the Python package, which reads them and writes what they say together.
+#include "apps/commands/study.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/command_line/command.hpp"
 #include "apps/commands/compare_inputs.hpp"
 #include "apps/commands/score_fields.hpp"
 #include "apps/json/comparison_json.hpp"
 #include "apps/json/json_file.hpp"
-#include "apps/output/commands.hpp"
 #include "apps/output/figures.hpp"
-#include "apps/output/output_folder.hpp"
 #include "apps/output/paper_data.hpp"
 #include "apps/output/pending_figures.hpp"
-#include "apps/process/asked.hpp"
 #include "apps/process/program_files.hpp"
-#include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/documents/document.hpp"
 
@@ -68,8 +67,6 @@ Json compared_pairs(const std::vector<LoadedSide>& sides, bool for_limits) {
 
 struct StudyRequest {
   std::vector<fs::path> folders;
-  fs::path output;
-  ExistingOutput existing;
   bool both_sides;
   std::optional<fs::path> limits;
   FigureScript figures;
@@ -100,37 +97,30 @@ Json given_of(const StudyRequest& request) {
   return given;
 }
 
-/// Results, figures and page; what the module says comes out when all of it is there.
-int carried_out(StudyRequest request) {
-  const fs::path finished = request.output / "study.json";
-  Json inputs = Json::array();
-  if (request.both_sides) inputs.push_back(request.limits ? input_sum(*request.limits) : "");
-  for (const fs::path& folder : request.folders) inputs.push_back(measured_run_sum(folder));
-  const std::string asked = asked_sum(inputs);
-  if (request.existing == ExistingOutput::resume && is_complete(finished))
-    return done_already(request.output, asked);
-  const Json given = given_of(request);
-  StagedOutput output({request.output,
-                       request.existing,
-                       request.both_sides ? "compare --study" : "study",
-                       request.folders,
-                       {},
-                       asked});
-  const fs::path &folder = output.folder(), given_file = folder / "given.json", file = folder / "study.json";
-  note_pending_figures(folder);
-  write_json(given_file, given);
+/// Has the module write what the folders say together; what it says of it.
+std::string studied(const Json& given, const fs::path& folder) {
+  const fs::path file = folder / "given.json";
+  write_json(file, given);
   const std::string said =
-      study_by_script("command.py", {folder.string(), paper_data_folder().string(), given_file.string()});
-  fs::remove(given_file);
-  auto& words = request.figures.arguments;
-  words.insert(words.begin(), folder.string());
-  const auto failures = draw_pending_figures(folder, {request.figures}, ResultPage{request.page, file});
-  output.publish();
-  print_out(said);
-  if (request.both_sides)
-    print_out(fmt::format("report: {}\n", fs::absolute(request.output / "index.html").string()));
-  throw_if_figures_failed(finished, failures);
-  return static_cast<int>(ExitCode::done);
+      study_by_script("command.py", {folder.string(), paper_data_folder().string(), file.string()});
+  fs::remove(file);
+  return said;
+}
+
+/// Results, figures and page; what the module says comes out when all of it is there.
+int carried_out(const ResultsRequest& asked, StudyRequest request) {
+  return make_results(asked, [&](Results& results) -> Made {
+    const Json given = given_of(request);
+    const fs::path& folder = results.begin();
+    note_pending_figures(folder);
+    std::string said = studied(given, folder);
+    auto& words = request.figures.arguments;
+    words.insert(words.begin(), folder.string());
+    if (request.both_sides)
+      said += fmt::format("report: {}\n", fs::absolute(asked.folder / "index.html").string());
+    return {said,
+            draw_pending_figures(folder, {request.figures}, ResultPage{request.page, folder / "study.json"})};
+  });
 }
 
 /// Runs of data/bed in the drum and at the speed of a flow.
@@ -153,48 +143,57 @@ std::vector<fs::path> runs_of_the_bed(const RunHeader& flow) {
   return runs;
 }
 
-}  // namespace
+struct ScoreOptions {
+  fs::path fields, limits;
+  std::vector<fs::path> against;  ///< empty: those of data/bed at that speed
+  fs::path output;
+  ExistingOutput existing = ExistingOutput::refuse;
+
+  void describe(Description& d) {
+    d.add("fields", fields, "FIELDS",
+          "Folder of a continuum flow; profiles.csv or maps.h5 of one; or another program's fields in CSV "
+          "(docs/formats/score.md)")
+        .required();
+    d.add("--limits", limits, "LIMITS.toml", "Limits, as data/limits/bed.toml").required();
+    d.add("--against", against, "RUN",
+          "Measured runs of that drum at that speed; those of data/bed unless told")
+        .decides(Decides::measured);
+    d.output(output, "SCORE", "Folder for score.json and score.md");
+    d.existing(existing);
+  }
+};
 
 int score(const ScoreOptions& options) {
-  Json inputs{input_sum(options.fields), input_sum(options.limits)};
-  for (const fs::path& run : options.against) inputs.push_back(measured_run_sum(run));
-  const std::string asked = asked_sum(inputs);
-  if (options.existing == ExistingOutput::resume && is_complete(options.output / "score.json"))
-    return done_already(options.output, asked);
-  StagedOutput output(
-      {options.output, options.existing, "score", {options.fields, options.limits}, {}, asked});
-  const fs::path& folder = output.folder();
-  fs::path flow = options.fields;
-  if (!fs::is_directory(flow)) write_flow_of_fields(options.fields, flow = folder / "flow");
-  const RunHeader header = read_flow_run(flow).profiles.header;
-  std::vector<fs::path> sides = options.against.empty() ? runs_of_the_bed(header) : options.against;
-  sides.push_back(flow);
-  const fs::path given_file = folder / "given.json";
-  Json given = given_of({sides, {}, {}, true, options.limits, {}, {}});
-  given["scored"] = fs::absolute(options.fields).lexically_normal().filename().string();
-  write_json(given_file, given);
-  const std::string said =
-      study_by_script("command.py", {folder.string(), paper_data_folder().string(), given_file.string()});
-  fs::remove(given_file);
-  output.publish();
-  print_out(said);
-  return static_cast<int>(ExitCode::done);
+  return make_results(
+      results_of(options, "score", options.output, "score.json"), [&](Results& results) -> Made {
+        const fs::path& folder = results.begin();
+        fs::path flow = options.fields;
+        if (!fs::is_directory(flow)) write_flow_of_fields(options.fields, flow = folder / "flow");
+        const RunHeader header = read_flow_run(flow).profiles.header;
+        std::vector<fs::path> sides = options.against.empty() ? runs_of_the_bed(header) : options.against;
+        sides.push_back(flow);
+        Json given = given_of({sides, true, options.limits, {}, {}});
+        given["scored"] = fs::absolute(options.fields).lexically_normal().filename().string();
+        return {studied(given, folder)};
+      });
 }
 
-int study(const StudyOptions& options) {
+}  // namespace
+
+int study(const ResultsRequest& asked, const std::vector<fs::path>& runs) {
   FigureScript figures{"study_figures.py", {paper_data_folder().string()}};
-  for (const fs::path& run : options.runs) figures.arguments.push_back(run.string());
-  return carried_out({options.runs, options.output, options.existing, false, {}, figures, "study"});
+  for (const fs::path& run : runs) figures.arguments.push_back(run.string());
+  return carried_out(asked, {runs, false, {}, figures, "study"});
 }
 
-int compare_study(const CompareStudyOptions& options) {
-  return carried_out({options.folders,
-                      options.output,
-                      options.existing,
-                      true,
-                      options.limits,
-                      {"speed_comparison_figures.py", {}},
-                      "speed_comparison"});
+int compare_study(const ResultsRequest& asked, const std::vector<fs::path>& folders,
+                  const std::optional<fs::path>& limits) {
+  return carried_out(asked, {folders, true, limits, {"speed_comparison_figures.py", {}}, "speed_comparison"});
+}
+
+Command score_command() {
+  return command("score", "Errors of any continuum of a drum against the particles, beside their limits",
+                 score);
 }
 
 }  // namespace drumlin::apps

@@ -15,9 +15,9 @@ def ask(what, **words):
 
 
 def refuse_options_of_the_other_kind(options, flow):
-    if flow and (options["from"] or options["statistics_s"]):
+    if flow and (options["from"] or options["statistics"]):
         raise InputError("cost: --from and --statistics are for scenes of particles")
-    if not flow and (flows.asks_for_work(options) or options["time_limit_s"] or options["variants"] or options["against"]):
+    if not flow and (flows.asks_for_work(options) or options["time-limit"] or options["variants"] or options["against"]):
         raise InputError("cost: --ranks, --neighbour, --repeats, --time-limit, --variants and --against are for flows")
 
 

@@ -157,7 +157,7 @@ class Flows:
     def __init__(self, kind, ask, options, facts):
         self.ask, self.options, self.facts = ask, options, facts
         shared = {"kind": kind, "scene": facts["scene"], "rheology": facts["law"]}
-        shared |= {key: options[key] for key in ("neighbour", "time_limit_s", "against") if options[key]}
+        shared |= {key: options[name] for key, name in (("neighbour", "neighbour"), ("time_limit_s", "time-limit"), ("against", "against")) if options[name]}
         self.points = Points(ask, options, shared, [options["scene"], options["rheology"]])
 
     def say(self, line):
@@ -183,7 +183,7 @@ class Flows:
         return folder
 
     def solve(self, folder, flow):
-        limit = self.options["time_limit_s"]
+        limit = self.options["time-limit"]
         words = [flow.scene, "--rheology", flow.law, "-o", str(folder)] + (["--from", flow.start] if flow.start else [])
         words += [word for change in ["solver.sensitivity=false", "output.figures=false", *flow.changes] for word in ("--set", change)]
         end = self.ask("start", program="drumlin-flow", words=words, ranks=flow.ranks, time_limit_s=limit, output="drop")
@@ -299,7 +299,7 @@ class Sweep(Flows):
         self.say(f"{self.options['output']}/cost.json")
 
     def flow(self, name, changes):
-        return Flow(name, self.options["scene"], self.options["rheology"], self.options["overrides"] + changes)
+        return Flow(name, self.options["scene"], self.options["rheology"], self.options["set"] + changes)
 
     def flow_with(self, settings):
         return self.flow(settings.name, changes_of(settings, self.standard, self.surface_cell))
@@ -351,7 +351,7 @@ class Prices(Flows):
                 flows[name] = Flow(name, scene, options["rheology"] if "k" in effects else plain_law, [change for change in changes if change],
                                    against=against)
         if facts["named"] or facts["law_has_k"]:
-            flows["as it is"] = Flow("as-it-is", options["scene"], options["rheology"], options["overrides"], against=against)
+            flows["as it is"] = Flow("as-it-is", options["scene"], options["rheology"], options["set"], against=against)
         # What differs between the two is noise of the machine.
         flows["none, again"] = flows["none"]._replace(name="none-again")
         rows, base = [], None

@@ -66,7 +66,7 @@ class Sweep:
         self.ask, self.options, self.facts = ask, options, facts
         self.standard = Settings(facts["solver"], facts["tolerance"], facts["step_s"])
         self.plan = plan_of(self.standard, axes_of(options["sweep"], AXES), facts["solvers"])
-        self.stretch_s = options["horizon_s"] or STANDARD_STEPS * self.standard.step_s
+        self.stretch_s = options["horizon"] or STANDARD_STEPS * self.standard.step_s
         if not options["output"]:
             raise InputError("cost: a sweep needs --output COST for its points")
         start = options["from"] or "the beginning of the last stage"
@@ -85,7 +85,7 @@ class Sweep:
         self.say(f"{'processor':>10} {'sweeps':>8} {'missed':>8}" + "".join(f" {name:>12}" for name in QUANTITIES) +
                  "  (processor seconds per simulated one; relative errors)")
         points = [self.flat(settings, horizon) for settings in self.plan.points]
-        if self.options["statistics_s"]:
+        if self.options["statistics"]:
             self.add_statistics(points)
         mark_fronts(points, QUANTITIES)
         self.ask("say", text=advice(points, QUANTITIES, lambda point: (
@@ -148,7 +148,7 @@ class Sweep:
 
     def add_statistics(self, points):
         """Only with the scene's own solver: the others differ by nothing but their work."""
-        seconds = self.options["statistics_s"]
+        seconds = self.options["statistics"]
         for settings, point in zip(self.plan.points, points):
             if settings.solver == self.standard.solver:
                 name = f"{settings.name}-over-{seconds:g}-s"
@@ -158,7 +158,7 @@ class Sweep:
     def long_run(self, settings, folder):
         """What a run long enough to be measured shows: from the state of the sweep by `drumlin run` and `drumlin measure`, so that an interrupted one
         goes on from its checkpoint. What it leaves is removed."""
-        seconds, load = self.options["statistics_s"], os.getloadavg()[0]
+        seconds, load = self.options["statistics"], os.getloadavg()[0]
         snapshots = max(LEAST_SNAPSHOTS, int(SNAPSHOTS_PER_SECOND * seconds + 0.5))
         before = self.ask("lay down", **settings._asdict(), length_s=seconds, snapshots=snapshots, folder=str(folder))["steps"]
         # A run most of whose steps missed a tolerance is a point of the sweep like others, which says so.
@@ -180,7 +180,7 @@ class Sweep:
 
     def report(self, floors, reference, horizon, points):
         options, facts = self.options, self.facts
-        statistics = {"statistics_s": options["statistics_s"]} if options["statistics_s"] else {}
+        statistics = {"statistics_s": options["statistics"]} if options["statistics"] else {}
         content = {"format": "drumlin-cost-1", "kind": "particles", "title": facts["title"], "reduced": facts["reduced"],
                    "scene_file": os.path.basename(options["scene"]), "threads": options["threads"],
                    "horizon_s": floors[horizon]["simulated_seconds"], "floor": floors[horizon]["errors"],

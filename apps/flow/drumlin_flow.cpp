@@ -2,7 +2,7 @@
 // deal.II. It takes the words of `drumlin flow`, whose command line it shares; `drumlin-flow --keys
 // [--markdown]` lists the keys of a flow scene, `--version` says which program this is.
 #include <cstring>
-#include <vector>
+#include <variant>
 
 #include "apps/command_line/command_line.hpp"
 #include "apps/flow/flow_run.hpp"
@@ -37,9 +37,7 @@ int solve(int argc, char** argv, bool& speaks) {
     apps::print_out("drumlin-flow " + version_text() + "\n");
     return static_cast<int>(ExitCode::done);
   }
-  std::vector<const char*> words = {"drumlin", "flow"};
-  words.insert(words.end(), argv + 1, argv + argc);
-  const auto request = apps::parse_command_line(static_cast<int>(words.size()), words.data(), {});
+  const auto request = apps::parse_options<apps::FlowOptions>(argc, argv, apps::flow_command(nullptr));
   if (const auto* shown = std::get_if<apps::TextToShow>(&request)) {
     apps::print_out(shown->text);
     return static_cast<int>(ExitCode::done);

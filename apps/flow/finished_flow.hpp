@@ -13,7 +13,7 @@ struct FlowRequest {
   RheologyFit law;
   continuum::FlowCase flow_case;
   std::vector<std::string> accepted = {};  ///< edits by hand of the flow that it starts from (accepted_edits)
-  std::string sum = {};                    ///< asked_sum() of all that decides the flow
+  std::string sum = {};                    ///< requested_sum() of all that decides the flow
   bool reduced() const { return scene.reduced || law.reduced; }
 };
 

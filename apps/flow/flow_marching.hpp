@@ -1,7 +1,7 @@
 #pragma once
 // Files and messages of a march in time: its start, series.csv, checkpoint.h5.
 #include "apps/flow/finished_flow.hpp"
-#include "apps/output/commands.hpp"
+#include "apps/flow/flow_options.hpp"
 #include "apps/output/output_folder.hpp"
 #include "continuum/fem/runtime.hpp"
 #include "continuum/io/flow_state_file.hpp"

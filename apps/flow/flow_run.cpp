@@ -311,8 +311,7 @@ int solve_flow_scene(const FlowOptions& options, const continuum::FemRuntime& ru
   // One of several machines may not see a file, or see another one.
   const auto say = [](const std::string& what) { print_error(what + "\n"); };
   runtime.on_all_ranks([&] { asked = read_request(options); }, say);
-  asked.sum = asked_sum({continuum::flow_scene_text(asked.scene), input_sum(options.rheology),
-                         options.from ? input_sum(*options.from) : "", options.law_draws});
+  asked.sum = requested_sum(described(options), {continuum::flow_scene_text(asked.scene)});
   runtime.require_same(asked.sum + options.output.string() + version_text(),
                        "scene, law, options or revision are");
   if (options.existing == ExistingOutput::resume && holds_results(options.output, "flow.json")) {

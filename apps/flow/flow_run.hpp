@@ -1,6 +1,6 @@
 #pragma once
 // The command `drumlin flow`: reads, solves, writes FLOWRUN.
-#include "apps/output/commands.hpp"
+#include "apps/flow/flow_options.hpp"
 #include "continuum/fem/runtime.hpp"
 
 namespace drumlin::apps {

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "apps/process/interruption.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/files/input_file.hpp"
 #include "coupling/core/files/result_folder.hpp"
@@ -192,6 +193,7 @@ bool is_half_aside(const fs::path& folder) {
 }  // namespace
 
 FolderLock claim(const OutputRequest& request) {
+  outlive_readers();
   const fs::path& folder = request.folder;
   if (folder.empty()) throw InputError("the output folder has no name");
   refuse_foreign(folder);
@@ -301,6 +303,7 @@ bool holds_results(const fs::path& folder, const std::string& finished) {
 }
 
 FolderLock prepare_output_file(const fs::path& file, ExistingOutput existing) {
+  outlive_readers();
   if (file.empty()) throw InputError("the output file has no name");
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (has_manifest(folder) && read_manifest(folder).files.contains(file.filename().string()))

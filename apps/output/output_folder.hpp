@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/output/commands.hpp"
+#include "apps/command_line/options.hpp"
 #include "coupling/core/files/folder_lock.hpp"
 #include "coupling/core/files/manifest.hpp"
 
@@ -17,7 +17,7 @@ struct OutputRequest {
   std::string command;                        ///< "run", "measure", ...
   std::vector<std::filesystem::path> inputs;  ///< what the command reads: never in a folder to be overwritten
   std::string source = {};                    ///< manifest_sum() of the folder that all is computed from
-  std::string asked = {};                     ///< asked_sum() of what the command was given
+  std::string asked = {};                     ///< requested_sum() of the command's options
   bool goes_on = true;                        ///< the command knows --resume
 };
 

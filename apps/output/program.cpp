@@ -15,7 +15,7 @@
 #include <system_error>
 #include <thread>
 
-#include "apps/output/commands.hpp"
+#include "apps/command_line/options.hpp"
 #include "apps/process/interruption.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"

@@ -4,6 +4,9 @@
 
 namespace drumlin::apps {
 
+/// Processors that this process may use, most_threads at most.
+int processors_at_hand();
+
 /// Does `work` and returns the exit code of the program (ExitCode): that of `work`, or that of what it threw,
 /// after a message on standard error where `speaks` says so (of several processes one speaks). Output that
 /// could not be written makes it input_output; where its reader has gone the process ends by SIGPIPE. An

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/files/checksum.hpp"
 #include "coupling/core/files/manifest.hpp"
@@ -32,12 +31,6 @@ std::string input_sum(const fs::path& input) {
 }
 
 std::string measured_run_sum(const fs::path& run) { return input_sum(run) + input_sum(run / "measured"); }
-
-int done_already(const fs::path& folder, const std::string& asked) {
-  refuse_other(folder, asked);
-  print_out(folder.string() + ": done already\n");
-  return static_cast<int>(ExitCode::done);
-}
 
 void refuse_other(const fs::path& folder, const std::string& asked) {
   if (!has_manifest(folder)) return;

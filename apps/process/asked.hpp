@@ -17,10 +17,6 @@ std::string input_sum(const std::filesystem::path& input);
 /// The same of a run and what was measured on it.
 std::string measured_run_sum(const std::filesystem::path& run);
 
-/// Says that the results in a folder are done already; returns the exit code of that. Throws as
-/// refuse_other().
-int done_already(const std::filesystem::path& folder, const std::string& asked);
-
 /// Throws InputError where the results in a folder were made for something else. Folders of earlier programs
 /// do not say what they were made for.
 void refuse_other(const std::filesystem::path& folder, const std::string& asked);

@@ -10,7 +10,7 @@
 
 #include "apps/command_line/command_line.hpp"
 #include "apps/commands/followers.hpp"
-#include "apps/output/commands.hpp"
+#include "apps/commands/run.hpp"
 #include "apps/output/program.hpp"
 #include "apps/process/interruption.hpp"
 #include "apps/process/standard_streams.hpp"
@@ -38,13 +38,11 @@ std::string under_our_name(std::string help) {
 
 /// What the first rank does, whose words count.
 int run(int argc, char** argv, particles::World& world) {
-  std::vector<const char*> words = {"drumlin", "run"};
-  words.insert(words.end(), argv + 1, argv + argc);
   if (argc > 1 && std::strcmp(argv[1], "--version") == 0) {
     apps::print_out("drumlin-run " + version_text() + "\n");
     return 0;
   }
-  const auto request = apps::parse_command_line(static_cast<int>(words.size()), words.data(), {});
+  const auto request = apps::parse_options<apps::RunOptions>(argc, argv, apps::run_command());
   if (const auto* shown = std::get_if<apps::TextToShow>(&request)) {
     apps::print_out(under_our_name(shown->text));
     return 0;

@@ -1,7 +1,7 @@
 // drumlin compare on folders made here: what it refuses, and what it leaves.
 #include <gtest/gtest.h>
 
-#include "apps/output/commands.hpp"
+#include "apps/commands/compare.hpp"
 #include "coupling/comparison/layers.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/hdf5/field_map_file.hpp"

@@ -1,11 +1,11 @@
 // drumlin measure and drumlin calibrate on run folders made here.
-#include "apps/output/commands.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "apps/commands/calibrate/calibrate.hpp"
+#include "apps/commands/measure/measure.hpp"
 #include "apps/output/pending_figures.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/files/text_file.hpp"

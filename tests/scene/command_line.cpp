@@ -3,54 +3,139 @@
 #include <gtest/gtest.h>
 
 #include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
+#include "apps/commands/all_commands.hpp"
+#include "apps/output/program.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "tests/support/says.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace drumlin::apps {
 namespace {
 
-/// The request of a command line whose words have no blanks in them.
-Request parsed(const std::string& line) {
+using Json = nlohmann::ordered_json;
+
+std::variant<TextToShow, std::unique_ptr<Call>> request(const std::string& line) {
   std::istringstream stream("drumlin " + line);
   const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
   std::vector<const char*> pointers;
   for (const std::string& word : words) pointers.push_back(word.c_str());
-  return parse_command_line(static_cast<int>(pointers.size()), pointers.data(), {"nlgs", "nncg"});
+  return parse_command_line(static_cast<int>(pointers.size()), pointers.data(), all_commands());
 }
+
+/// What is shown for a command line whose words have no blanks in them.
+std::string shown(const std::string& line) { return std::get<TextToShow>(request(line)).text; }
+
+/// The options that it fills in.
+Json parsed(const std::string& line) { return json_of(std::get<1>(request(line))->description()); }
 
 TEST(CommandLine, FillsTheOptionsOfACommand) {
-  const auto run =
-      std::get<RunOptions>(parsed("run -o out --set x=1 --set y=[1,2] a.toml --threads 4 --resume"));
-  EXPECT_EQ(run.scene, "a.toml");
-  EXPECT_EQ(run.output, "out");
-  EXPECT_EQ(run.overrides, (std::vector<std::string>{"x=1", "y=[1,2]"}));
-  EXPECT_EQ(run.threads, 4);
-  EXPECT_EQ(run.existing, ExistingOutput::resume);
-  EXPECT_EQ(std::get<RunOptions>(parsed("run a.toml -o out")).threads, processors_at_hand());
-  const auto cost = std::get<CostOptions>(parsed("cost s.toml --sweep mesh=1:2,eps --ranks 1,2"));
-  EXPECT_EQ(cost.sweep, (std::vector<std::string>{"mesh=1:2", "eps"}));
-  EXPECT_EQ(cost.ranks, (std::vector<int>{1, 2}));
-  EXPECT_EQ(std::get<MeasureOptions>(parsed("measure r --position -5")).position, -5);
-  // Those that no test of the whole program gives.
-  EXPECT_EQ(std::get<CostOptions>(parsed("cost --effects s.toml --against r1 r2")).against.size(), 2u);
-  EXPECT_EQ(std::get<CalibrateOptions>(parsed("calibrate r1 -o law.toml --I-min 1e-3")).I_min, 1e-3);
-  const auto solve = std::get<SolveContactsOptions>(parsed("solve-contacts p.h5 --watch 10 --max-seconds 5"));
-  EXPECT_EQ(solve.watch, 10);
-  EXPECT_EQ(solve.max_seconds, 5);
+  const Json run = parsed("run -o out --set x=1 --set y=[1,2] a.toml --threads 4 --resume");
+  EXPECT_EQ(run, Json({{"scene", "a.toml"},
+                       {"output", "out"},
+                       {"set", {"x=1", "y=[1,2]"}},
+                       {"threads", 4},
+                       {"ranks", nullptr},
+                       {"accuracy", nullptr},
+                       {"accuracy-seconds", nullptr},
+                       {"extend", nullptr},
+                       {"resume", true},
+                       {"overwrite", false}}));
+  EXPECT_EQ(parsed("run a.toml -o out")["threads"], processors_at_hand());
+  EXPECT_EQ(parsed("cost s.toml --sweep mesh=1:2,eps")["sweep"], Json({"mesh=1:2", "eps"}));
+  EXPECT_EQ(parsed("cost s.toml --ranks 1,2")["ranks"], Json({1, 2}));
+  EXPECT_EQ(parsed("cost --effects s.toml --against r1 r2")["against"], Json({"r1", "r2"}));
+  EXPECT_EQ(parsed("measure r --position -5")["position"], -5);
+  EXPECT_EQ(parsed("calibrate r1 -o law.toml --I-min 1e-3")["I-min"], 1e-3);
+  EXPECT_EQ(parsed("solve-contacts p.h5 --watch 10")["watch"], 10);
+  EXPECT_EQ(parsed("compare a b -o o --overwrite")["overwrite"], true);
 }
 
-TEST(CommandLine, RefusesExistingOutputUnlessTold) {
-  EXPECT_EQ(std::get<RunOptions>(parsed("run a -o o")).existing, ExistingOutput::refuse);
-  EXPECT_EQ(std::get<CompareOptions>(parsed("compare a b -o o --overwrite")).existing,
-            ExistingOutput::overwrite);
+/// The words that stand for the options of a call make the same options.
+TEST(CommandLine, WordsOfOptionsMakeTheSameOptions) {
+  for (const std::string line :
+       {"run a.toml -o o --set x=1 --set y=[1,2] --extend 1e-3 --resume",
+        "flow f.toml --rheology r -o o --from g",
+        "measure r --slices -1,0,2.5 --parts maps,forces --position -5 --verbose",
+        "calibrate r1 r2 -o l --validate r3 r4 --I-max 0.1 --memory --amount --own-weight 0.5",
+        "cost s.toml --sweep mesh=1:2,eps --ranks 1,2 --neighbour a=1 --neighbour b=2 --against r1 r2"}) {
+    const auto call = std::get<1>(request(line));
+    const Json options = json_of(call->description());
+    std::string again = line.substr(0, line.find(' '));
+    for (const std::string& word : words_of(call->description())) again += " " + word;
+    EXPECT_EQ(parsed(again), options) << again;
+  }
 }
 
-TEST(CommandLine, PrintsACompletionWithoutACommand) {
-  const auto script = std::get<TextToShow>(parsed("--completion bash")).text;
-  expect_has(script, "complete -o default -F _drumlin drumlin");
-  expect_has(script, "--player");
+/// Options as a command may have them; each by its kind.
+struct EveryKind {
+  std::filesystem::path input, output;
+  std::optional<std::filesystem::path> second;
+  std::vector<double> numbers;
+  std::optional<double> number;
+  int count = 1;
+  bool flag = false, shown = false;
+  ExistingOutput existing = ExistingOutput::refuse;
+
+  void describe(Description& d) {
+    d.add("input", input, "FILE", "a file").required();
+    d.output(output, "DIR", "a folder");
+    d.add("--second", second, "FILE", "a second file");
+    d.add("--numbers", numbers, "X,X", "numbers");
+    d.add("--number", number, "d", above(0), "a number");
+    d.add("--count", count, "", at_least(1, 4), "a count");
+    d.add("--flag", flag, "a flag");
+    d.add("--shown", shown, "what is shown").decides(Decides::nothing);
+    d.existing(existing);
+  }
+};
+
+TEST(CommandLine, WhatDecidesTheResultsIsSummedAndNothingElse) {
+  const testing::TemporaryFolder folder;
+  EveryKind options;
+  options.input = folder.with("input", "one");
+  const auto sum = [&] { return requested_sum(described(options)); };
+  std::set<std::string> sums{sum()};
+  const auto changes = [&](const char* what) { EXPECT_TRUE(sums.insert(sum()).second) << what; };
+  options.number = 2;
+  changes("number");
+  options.numbers = {1, 2};
+  changes("numbers");
+  options.count = 2;
+  changes("count");
+  options.flag = true;
+  changes("flag");
+  options.second = folder.with("second", "one");
+  changes("second");
+  folder.with("input", "two");
+  changes("content");
+  const std::string before = sum();
+  options.output = "elsewhere";
+  options.shown = true;
+  options.existing = ExistingOutput::overwrite;
+  options.input = folder.with("moved", "two");
+  EXPECT_EQ(sum(), before);
+  EXPECT_EQ(inputs_of(described(options)), (std::vector{options.input, *options.second}));
+}
+
+/// A long name is on one line of the help, in the page for man and in each completion.
+TEST(CommandLine, EveryOptionIsInHelpManAndCompletions) {
+  const std::string man = shown("--man"), json = shown("--commands");
+  for (const Json& command : Json::parse(json)) {
+    const std::string name = command["name"], help = shown(name + " --help");
+    for (const Json& option : command["options"]) {
+      const std::string word = (option["is_positional"] ? "" : "--") + option["name"].get<std::string>();
+      expect_has(help, word);
+      if (option["is_positional"]) continue;
+      for (const char* shell : {"bash", "zsh"}) expect_has(shown(std::string("--completion ") + shell), word);
+      if (name.find(' ') == std::string::npos)
+        expect_has(shown("--completion fish"), name + "' -l " + word.substr(2) + " ");
+    }
+    expect_has(man, ".SS " + (name == "solve-contacts" ? "solve\\-contacts" : name));
+  }
 }
 
 TEST(CommandLine, RefusesWrongUsage) {
@@ -81,18 +166,14 @@ TEST(CommandLine, RefusesWrongUsage) {
                            "cost s.toml --time-limit 0",
                            "cost s.toml --horizon -1",
                            "--completion tcsh"})
-    EXPECT_THROW(parsed(line), InputError) << "drumlin " << line;
+    EXPECT_THROW(request(line), InputError) << "drumlin " << line;
 }
 
 TEST(CommandLine, ShowsHelpWithDefaultUnitAndRange) {
-  const auto help = std::get<TextToShow>(parsed("measure --help")).text;
-  expect_has(help, "--slice-width");
-  expect_has(help, "=20");
-  expect_has(help, "[d, ");
-  for (const char* command :
-       {"run", "calibrate", "flow", "compare", "solve-contacts", "scene", "plot", "export", "history"})
-    expect_has(std::get<TextToShow>(parsed(std::string(command) + " --help")).text, "Usage");
-  expect_has(std::get<TextToShow>(parsed("--help")).text, "solve-contacts");
+  const std::string help = shown("measure --help");
+  expect_has(help, "--slice-width FLOAT=20");
+  expect_has(help, "[d, > 0]");
+  expect_has(shown("--help"), "solve-contacts");
 }
 
 }  // namespace

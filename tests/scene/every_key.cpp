@@ -8,8 +8,8 @@
 #include <set>
 #include <sstream>
 
+#include "apps/commands/run.hpp"
 #include "apps/json/json_file.hpp"
-#include "apps/output/commands.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/files/text_file.hpp"
 #include "particles/io/snapshot_file.hpp"

@@ -1,4 +1,6 @@
 // drumlin calibrate: one law from the tensors or profiles of one or more runs.
+#include "apps/commands/calibrate/calibrate.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -10,10 +12,8 @@
 #include "apps/commands/calibrate/evidence.hpp"
 #include "apps/json/described.hpp"
 #include "apps/json/json_file.hpp"
-#include "apps/output/commands.hpp"
 #include "apps/output/figures.hpp"
 #include "apps/output/output_folder.hpp"
-#include "apps/process/asked.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/files/input_file.hpp"
@@ -141,15 +141,6 @@ void refuse_files_of_others(const CalibrateOptions& options) {
   if (!has_record && fs::exists(fs::symlink_status(figure))) refuse(figure);
 }
 
-std::string asked_for(const CalibrateOptions& options) {
-  Json inputs = Json::array(), held_out = inputs;
-  for (const fs::path& run : options.runs) inputs.push_back(measured_run_sum(run));
-  for (const fs::path& run : options.validate) held_out.push_back(measured_run_sum(run));
-  return asked_sum({inputs, held_out, options.from, options.law, options.I_min.value_or(0),
-                    options.I_max.value_or(0), options.draws, options.k, options.misalignment, options.memory,
-                    options.nonlocal, options.amount, options.own_weight, options.accept_unsteady});
-}
-
 /// A law stands in no folder with a manifest: its record says what was asked for.
 void refuse_other_law(const fs::path& record, const std::string& asked) {
   if (!fs::is_regular_file(record)) return;
@@ -163,11 +154,10 @@ void refuse_other_law(const fs::path& record, const std::string& asked) {
 int calibrate(const CalibrateOptions& options) {
   const fs::path record = beside(options.output, ".json");
   if (options.existing == ExistingOutput::resume && fs::is_regular_file(options.output)) {
-    refuse_other_law(record, asked_for(options));
+    refuse_other_law(record, requested_sum(described(options)));
     print_out(fmt::format("{}: done already\n", options.output.string()));
     return static_cast<int>(ExitCode::done);
   }
-  if (options.runs.empty()) throw InputError("calibrate needs at least one measured run");
   if (options.I_min && options.I_max && !(*options.I_min < *options.I_max))
     throw InputError(fmt::format("the range of I is {} to {} (allowed: 0 < I_min < I_max)", *options.I_min,
                                  *options.I_max));
@@ -191,7 +181,7 @@ int calibrate(const CalibrateOptions& options) {
   const FolderLock lock = prepare_output_file(options.output, options.existing);
   Json content = calibration_json(calibration, all);
   if (!bed.is_null()) content.update(bed["record"]);
-  content["asked"] = asked_for(options);
+  content["asked"] = requested_sum(described(options));
   write_json(record, content);
   draw_figures("calibrate_figures.py", {record.string(), beside(options.output, ".png").string()});
   // Last: its presence says that all is there.
@@ -217,6 +207,10 @@ int calibrate(const CalibrateOptions& options) {
       print_out(fmt::format("  warning: {} is not steady: {}\n", run.name, reason));
   print_out(fmt::format("next: drumlin flow FLOW.toml --rheology {} -o FLOWRUN\n", options.output.string()));
   return static_cast<int>(ExitCode::done);
+}
+
+Command calibrate_command() {
+  return command("calibrate", "Fits mu(I), and k(I) on request, to measured runs", calibrate);
 }
 
 }  // namespace drumlin::apps

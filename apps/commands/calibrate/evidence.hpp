@@ -2,7 +2,7 @@
 // Reads the measured runs that a calibration starts from.
 #include <vector>
 
-#include "apps/output/commands.hpp"
+#include "apps/commands/calibrate/calibrate.hpp"
 #include "coupling/calibration/run_evidence.hpp"
 #include "coupling/core/results/measured_run.hpp"
 

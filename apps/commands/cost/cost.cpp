@@ -39,21 +39,6 @@ bool is_flow_scene(const fs::path& file) {
                                  .allowed = "drumlin-scene-1, drumlin-flow-scene-1"}});
 }
 
-Json options_json(const CostOptions& options) {
-  Json json{{"scene", options.scene},         {"effects", options.effects}, {"overrides", options.overrides},
-            {"seconds", options.seconds},     {"sweep", options.sweep},     {"ranks", options.ranks},
-            {"neighbour", options.neighbour}, {"repeats", options.repeats}, {"variants", options.variants},
-            {"against", options.against},     {"threads", options.threads}};
-  const auto add = [&](const char* key, const auto& value) { json[key] = value ? Json(*value) : Json(); };
-  add("output", options.output);
-  add("horizon_s", options.horizon_s);
-  add("statistics_s", options.statistics_s);
-  add("from", options.from);
-  add("rheology", options.rheology);
-  add("time_limit_s", options.time_limit_s);
-  return json;
-}
-
 /// The folder of a sweep or a price list, and what its points share.
 class CostFolder {
  public:
@@ -160,8 +145,6 @@ Json start(const Json& wish) {
       {"code", code}, {"timed_out", end.timed_out}, {"peak_memory_mb", end.peak_memory_mb}, {"said", said}};
 }
 
-}  // namespace
-
 int cost(const CostOptions& options) {
   const bool flow = is_flow_scene(options.scene);
   if (flow && !options.rheology)
@@ -175,7 +158,7 @@ int cost(const CostOptions& options) {
   CostFolder folder(options);
   work_for_script("../costs/cost.py", [&](const Json& wish) -> Json {
     const std::string what = wish.at("what");
-    if (what == "facts") return {{"options", options_json(options)}, {"facts", facts}};
+    if (what == "facts") return {{"options", json_of(described(options))}, {"facts", facts}};
     if (what == "start") return start(wish);
     if (what == "stretch") return particles.value().stretch(wish);
     if (what == "lay down") return particles.value().lay_down(wish);
@@ -199,6 +182,52 @@ int cost(const CostOptions& options) {
     return {};
   });
   return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+void CostOptions::describe(Description& d) {
+  d.scene(scene, "Scene of particles or of a flow");
+  d.add("--sweep", sweep, "NAME[=VALUE:...],...",
+        "What is varied, each with its values or standard ones, e.g. tolerance=1e-2:1e-3,step; particles: "
+        "solver, tolerance, step; flows: mesh, eps, tolerance [all]");
+  d.add("--horizon", horizon_s, "s", above(0),
+        "Particles: longest stretch after which velocities are compared; half or a quarter of it where the "
+        "finest point leaves the reference earlier; standard: 16 steps of the scene");
+  d.add("--statistics", statistics_s, "s", above(0),
+        "Particles: compares the measured numbers of runs of this length as well");
+  d.add(
+      "--from", from, "RUN",
+      "Particles: finished run of the scene to start from; standard: the beginning of the last stage, which "
+      "is run up to first");
+  d.add("--rheology", rheology, "RHEOLOGY.toml", "Flows: law, from calibrate or data/rheology");
+  d.add("--ranks", ranks, "N,N,...", at_least(1, 1024),
+        "Flows: numbers of MPI processes on which each is solved, its times listed; standard: 1");
+  d.add("--neighbour", neighbour, "KEY=VALUE",
+        "Flows: each is also solved from the flow with this change, e.g. drum.rotation_rpm=5; repeatable")
+      .repeated();
+  d.add("--repeats", repeats, "", at_least(1, 100),
+        "Flows: solves of each, of which the least and the median time are listed");
+  d.add("--time-limit", time_limit_s, "s", above(0), "Flows: wall time after which one is given up");
+  d.add("--effects", effects,
+        "In place of a sweep: the scene with each of its effects removed and each absent one added; seconds, "
+        "unknowns and results of each");
+  d.add("--variants", variants, "LIST",
+        "With --effects, flows: which effects together, e.g. inertia,inertia+k; standard: each alone");
+  d.add("--against", against, "RUN",
+        "With --effects, flows of a drum: measured runs of its speed; the errors of each variant against "
+        "them");
+  d.output(output, "COST",
+           "Folder for cost.json, its points and figures; --effects of particles can do without");
+  d.changes(overrides);
+  d.add("--seconds", seconds, "s", above(0),
+        "With --effects, particles: simulated time from the start of the scene");
+  d.add("--threads", threads, "", at_least(1, most_threads), "Threads; the results do not depend on it");
+  d.existing(existing, "Keeps the points that an earlier call has finished");
+}
+
+Command cost_command() {
+  return command("cost", "What accuracy costs in a scene, or its effects (docs/cost.md)", cost);
 }
 
 }  // namespace drumlin::apps

@@ -5,11 +5,27 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-#include "apps/output/commands.hpp"
+#include "apps/command_line/command.hpp"
 #include "particles/scene/effect_variants.hpp"
 #include "particles/stretches/stretch.hpp"
 
 namespace drumlin::apps {
+
+struct CostOptions {
+  std::filesystem::path scene;     ///< of particles or of a flow
+  std::vector<std::string> sweep;  ///< "tolerance" or "tolerance=1e-2:1e-3"; empty: all that the scene has
+  std::optional<double> horizon_s, statistics_s, time_limit_s;
+  std::optional<std::filesystem::path> from, rheology, output;
+  std::vector<int> ranks = {1};
+  std::vector<std::string> neighbour, variants, overrides;
+  int repeats = 1, threads = 1;
+  bool effects = false;  ///< the price list of the scene's effects, in place of a sweep
+  std::vector<std::filesystem::path> against;
+  double seconds = 1;  ///< of --effects, simulated, from the start of the scene
+  ExistingOutput existing = ExistingOutput::refuse;
+
+  void describe(Description& d);
+};
 
 /// The scene and the law, as they are and without any effect, as texts; the scene's effects as changes for
 /// --set, by name.

@@ -1,4 +1,6 @@
 // drumlin measure: profiles and scalars of a finished particle run.
+#include "apps/commands/measure/measure.hpp"
+
 #include <fmt/format.h>
 
 #include <chrono>
@@ -13,11 +15,10 @@
 #include "apps/commands/measure/summary.hpp"
 #include "apps/commands/run_accuracy.hpp"
 #include "apps/commands/run_report.hpp"
+#include "apps/commands/study.hpp"
 #include "apps/json/json_file.hpp"
-#include "apps/output/commands.hpp"
-#include "apps/output/output_folder.hpp"
 #include "apps/output/pending_figures.hpp"
-#include "apps/process/asked.hpp"
+#include "apps/output/results.hpp"
 #include "apps/process/progress.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
@@ -47,22 +48,6 @@ ResultFolder run_in(const fs::path& run) {
   if (!fs::exists(run / "run.json"))
     throw InputError(run.string() + ": holds no run.json, so no particle run");
   return open_result_folder(run);
-}
-
-/// Measured, and of the run as it is now.
-bool is_measured(const fs::path& run, const fs::path& finished) {
-  if (!is_complete(finished)) return false;
-  check_source(open_result_folder(finished.parent_path()), run_in(run),
-               fmt::format("drumlin measure {} --overwrite", run.string()));
-  return true;
-}
-
-/// The run itself is told by the source of the results.
-std::string asked_for(const MeasureOptions& options) {
-  return asked_sum({options.slice_width, options.layer_thickness, options.position, options.parts,
-                    options.gradient_step, options.slices, options.map_spacing, options.map_width,
-                    options.radial, options.height, options.width, options.grains,
-                    options.accuracy ? input_sum(*options.accuracy) : ""});
 }
 
 Json finished_run(const ResultFolder& folder) {
@@ -283,16 +268,13 @@ std::vector<FigureScript> figures_of(const Request& request, const fs::path& fol
   return figures;
 }
 
-}  // namespace
-
-int measure(const MeasureOptions& options) {
+int measure_run(const MeasureOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   check_parts(options.parts);
   check_slices(options.slices);
-  const fs::path results = options.run / "measured", finished = results / "measured.json";
-  const std::string asked = asked_for(options);
-  if (options.existing == ExistingOutput::resume && is_measured(options.run, finished))
-    return done_already(results, asked);
+  ResultsRequest asked = results_of(options, "measure", options.run / "measured", "measured.json");
+  asked.computed_from = options.run;
+  if (is_done_already(asked)) return static_cast<int>(ExitCode::done);
   (void)run_in(options.run);  // a lock is left in no folder of somebody else
   const FolderLock run_lock(options.run / folder_lock_name, "drumlin measure");
   const ResultFolder run_folder = run_in(options.run);
@@ -303,8 +285,8 @@ int measure(const MeasureOptions& options) {
   if (files.empty())
     throw InputError(options.run.string() + ": holds no snapshots: there is nothing to measure");
   request.parts = reading_parts(options);
-  StagedOutput output({results, options.existing, "measure", {}, manifest_sum(*run_folder.manifest), asked});
-  const fs::path& folder = output.folder();
+  Results results(asked);
+  const fs::path& folder = results.begin();
 
   particles::Measurement measured = measured_run(request, files);
   note_missed_steps(request.run, measured.steadiness);
@@ -325,14 +307,30 @@ int measure(const MeasureOptions& options) {
   note_pending_figures(folder);
   write_json(folder / "measured.json", content);
   const std::vector<std::string> failures = draw_pending_figures(folder, figures_of(request, folder));
-  output.publish();
+  results.publish();
 
-  print_results(request, results, measured, scalars, options.verbose);
+  print_results(request, asked.folder, measured, scalars, options.verbose);
   print_accuracy(request, statement, scalars);
   print_out(fmt::format("next: drumlin calibrate {} -o rheology.toml, or drumlin report {}\n",
                         options.run.string(), options.run.string()));
-  throw_if_figures_failed(finished, failures);
+  throw_if_figures_failed(asked.folder / asked.finished, failures);
   return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+int measure(const MeasureOptions& options) {
+  if (options.study.empty() == options.run.empty())
+    throw InputError("measure: one of RUN and --study RUN... is required");
+  if (options.study.empty() == options.output.has_value())
+    throw InputError("measure: --study RUN... together with --output STUDY is required");
+  return options.study.empty()
+             ? measure_run(options)
+             : study(results_of(options, "study", *options.output, "study.json"), options.study);
+}
+
+Command measure_command() {
+  return command("measure", "Profiles and scalars of a run, into RUN/measured", measure);
 }
 
 }  // namespace drumlin::apps

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/output/commands.hpp"
+#include "apps/commands/measure/measure.hpp"
 #include "particles/measurement/measurement.hpp"
 
 namespace drumlin::apps {
