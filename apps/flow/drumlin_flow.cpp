@@ -47,7 +47,9 @@ int solve(int argc, char** argv, bool& speaks) {
   apps::end_at_signals();  // PETSc has set handlers of its own
   apps::outlive_readers();
   try {
-    return apps::solve_flow_scene(std::get<apps::FlowOptions>(request), runtime);
+    const int code = apps::solve_flow_scene(std::get<apps::FlowOptions>(request), runtime);
+    apps::flush_out();  // PETSc flushes it at its end, too, and what fails then is nobody's
+    return code;
   } catch (const FailedOnFirstRank& failure) {
     return static_cast<int>(failure.code);
   }

@@ -1,6 +1,7 @@
 #include "apps/process/standard_streams.hpp"
 
 #include <fcntl.h>
+#include <stdio_ext.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -33,7 +34,9 @@ void print_out(std::string_view text) {
 void flush_out() {
   if (lost != 0) return;
   errno = 0;
-  if (std::fflush(stdout) != 0) lost = error_number();
+  if (std::fflush(stdout) == 0) return;
+  lost = error_number();
+  ::__fpurge(stdout);  // else whoever flushes next fails again
 }
 
 int lost_output() {
