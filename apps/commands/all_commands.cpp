@@ -19,6 +19,7 @@
   row(scene_command) \
   row(solve_contacts_command) \
   row(cost_command) \
+  row(info_command) \
   row(accept_command)
 // clang-format on
 

@@ -69,6 +69,8 @@ def edits_are_told(drumlin, run, folder):
     log = edited / "log.csv"
     log.write_text(log.read_text(encoding="utf-8").replace("sampled", "stirred"), encoding="utf-8")
     drumlin("measure", edited, "--overwrite", code=2)
+    _, said = drumlin("info", edited, code=2)
+    require("log.csv" in said and "drumlin accept" in said, said)
     drumlin("accept", edited, code=2)  # without a reason
     drumlin("accept", edited, "--reason", "two\nlines", code=2)
     drumlin("accept", folder, "--reason", "no result folder", code=2)
@@ -76,7 +78,11 @@ def edits_are_told(drumlin, run, folder):
     require("changed" in text and "log.csv" in text, text)
     text, _ = drumlin("accept", edited, "--reason", "again")
     require("as they were written" in text, text)
+    _, said = drumlin("info", edited, code=2)
+    require("as it was before" in said and "log.csv" not in said, said)  # what was measured is of the run before the edit
     drumlin("measure", edited, "--parts", "none", "--overwrite")
+    text, _ = drumlin("info", edited)
+    require(f"{edited}: of drumlin run, complete; " in text and "another name of the stage (log.csv)" in text and f"{edited}/measured: of drumlin measure" in text, text)
     edits = read_json(edited / "measured" / "measured.json")["provenance"]["accepted_edits"]
     require(len(edits) == 1 and "another name of the stage (log.csv)" in edits[0], f"{edits}")
     # What a version without manifests has left.
