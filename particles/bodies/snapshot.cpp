@@ -4,11 +4,6 @@
 
 namespace drumlin::particles {
 
-std::array<double, 2> impulse_on_i(const SnapshotContact& c) {
-  const double n_x = c.normal_x, n_z = c.normal_z;
-  return {c.impulse_n * n_x + c.impulse_t * n_z, c.impulse_n * n_z - c.impulse_t * n_x};
-}
-
 double mass_of(const Snapshot& snapshot, std::size_t grain) {
   return snapshot.mass.empty() ? mass_of_disc(snapshot.radius[grain]) : snapshot.mass[grain];
 }

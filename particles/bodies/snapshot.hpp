@@ -23,7 +23,10 @@ struct SnapshotContact {
   double impulse_t = 0;
 };
 /// Components along x and z.
-std::array<double, 2> impulse_on_i(const SnapshotContact&);
+inline std::array<double, 2> impulse_on_i(const SnapshotContact& c) {
+  const double n_x = c.normal_x, n_z = c.normal_z;
+  return {c.impulse_n * n_x + c.impulse_t * n_z, c.impulse_n * n_z - c.impulse_t * n_x};
+}
 
 /// A cell that is periodic in x and z at one instant: its lower left corner, its height (its length is
 /// Snapshot::period_x), the displacement of the image above along x, and the rates of all that: an image that

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "particles/measurement/frame/moments.hpp"
+
 namespace drumlin::particles {
 namespace {
 
@@ -56,22 +58,16 @@ VectorField without_rigid_part(const Bodies& at, VectorField v) {
 
 // Every grain gets the mean of its square.
 VectorField averaged(const Bodies& at, const VectorField& v) {
-  struct Sum {
-    double mass = 0, x = 0, z = 0;
-  };
   const auto square_of = [&](std::size_t b) {
     return std::pair(std::floor(at.x[b] / side_of_square), std::floor(at.z[b] / side_of_square));
   };
-  std::map<std::pair<double, double>, Sum> sums;
-  for (std::size_t b = 0; b < at.count(); ++b) {
-    Sum& sum = sums[square_of(b)];
-    const double m = 1 / at.inverse_mass[b];
-    sum.mass += m, sum.x += m * v.x[b], sum.z += m * v.z[b];
-  }
+  std::map<std::pair<double, double>, Spread<2>> sums;
+  for (std::size_t b = 0; b < at.count(); ++b)
+    sums[square_of(b)].add(1 / at.inverse_mass[b], {v.x[b], v.z[b]});
   VectorField mean = v;
   for (std::size_t b = 0; b < at.count(); ++b) {
-    const Sum& sum = sums.at(square_of(b));
-    mean.x[b] = sum.x / sum.mass, mean.z[b] = sum.z / sum.mass;
+    const Spread<2>& sum = sums.at(square_of(b));
+    mean.x[b] = sum.mean(0), mean.z[b] = sum.mean(1);
   }
   return mean;
 }

@@ -49,4 +49,17 @@ inline FieldMap collected_maps(const particles::CoarseGraining& graining,
   return map;
 }
 
+/// Calls check(x, z, value of a field by its name) at every node where inside(x, z); returns how many.
+template <class Inside, class Check>
+int each_node(const FieldMap& map, Inside inside, Check check) {
+  int checked = 0;
+  for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
+    const double x = map.grid.x_of(node % map.grid.columns), z = map.grid.z_of(node / map.grid.columns);
+    if (!inside(x, z)) continue;
+    ++checked;
+    check(x, z, [&](const char* name) { return map.field(name).value[node]; });
+  }
+  return checked;
+}
+
 }  // namespace drumlin::testing

@@ -10,9 +10,7 @@ namespace drumlin::displacement_maps {
 using namespace particles;
 namespace {
 
-FieldMap maps_of(const CoarseGraining& graining, const std::vector<Snapshot>& snapshots, double radius = 0) {
-  return testing::collected_maps(graining, snapshots, radius);
-}
+using testing::collected_maps;
 
 struct Gradient {
   double xx, xz, zx, zz;
@@ -44,12 +42,8 @@ std::vector<Snapshot> stretched_lattice(const Gradient& rate, double interval, d
 }
 
 void expect_gradient(const FieldMap& map, const Gradient& rate) {
-  int checked = 0;
-  for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
-    const double x = map.grid.x_of(node % map.grid.columns), z = map.grid.z_of(node / map.grid.columns);
-    const auto value = [&](const char* name) { return map.field(name).value[node]; };
-    if (std::abs(x) > 4.5 || std::abs(z) > 4.5) continue;
-    ++checked;
+  const auto inside = [](double x, double z) { return std::abs(x) <= 4.5 && std::abs(z) <= 4.5; };
+  const int checked = testing::each_node(map, inside, [&](double x, double z, auto value) {
     EXPECT_NEAR(value("displacement_v_x"), rate.xx * x + rate.xz * z, 1e-12);
     EXPECT_NEAR(value("displacement_v_z"), rate.zx * x + rate.zz * z, 1e-12);
     EXPECT_NEAR(value("displacement_d_v_x_dx"), rate.xx, 1e-12);
@@ -64,7 +58,7 @@ void expect_gradient(const FieldMap& map, const Gradient& rate) {
         2 * std::sqrt(
                 (rate.xx * rate.xx + rate.zz * rate.zz + (rate.xz + rate.zx) * (rate.xz + rate.zx) / 2) / 2),
         1e-12);
-  }
+  });
   EXPECT_GT(checked, 60);
 }
 
@@ -73,7 +67,7 @@ const CoarseGraining lattice_graining = coarse_graining(FlowFrame{}, -8, 8, -8, 
 TEST(DisplacementMaps, StraightDisplacementsHaveTheirGradientWithoutTheTurnOfTheDrum) {
   const Gradient rate{0.01, 0.02, -0.005, 0.003};
   for (const double angle : {0.0, 0.4})
-    expect_gradient(maps_of(lattice_graining, stretched_lattice(rate, 2, angle)), rate);
+    expect_gradient(collected_maps(lattice_graining, stretched_lattice(rate, 2, angle)), rate);
 }
 
 TEST(DisplacementMaps, GrainsAreFollowedAcrossAPeriodicBoundary) {
@@ -90,11 +84,11 @@ TEST(DisplacementMaps, GrainsAreFollowedAcrossAPeriodicBoundary) {
   follower.add(to, sums);
   ASSERT_EQ(sums.snapshots.pairs, 1);
   for (std::size_t node = 0; node < sums.nodes.size(); ++node)
-    EXPECT_NEAR(sums.nodes[node].moved[1] / sums.nodes[node].moved[0], 0.27, 1e-12);
+    EXPECT_NEAR(sums.nodes[node].displaced.mean(1), 0.27, 1e-12);
 }
 
 TEST(DisplacementMaps, MotionOverMoreThanHalfAWidthIsNotCalledLocal) {
-  const FieldMap map = maps_of(lattice_graining, stretched_lattice({0, 0.1, 0, 0}, 2, 0));
+  const FieldMap map = collected_maps(lattice_graining, stretched_lattice({0, 0.1, 0, 0}, 2, 0));
   const auto at = [&](double z) {
     const auto row = static_cast<std::size_t>(std::lround(z - map.grid.z_first));
     return map.field("displacement_v_x").value[row * map.grid.columns + 8];
@@ -105,9 +99,9 @@ TEST(DisplacementMaps, MotionOverMoreThanHalfAWidthIsNotCalledLocal) {
 
 TEST(DisplacementMaps, OneSnapshotOrOtherGrainsGiveNoFields) {
   std::vector<Snapshot> ends = stretched_lattice({0.01, 0, 0, 0}, 2, 0);
-  EXPECT_EQ(maps_of(lattice_graining, {ends[0]}).find("displacement_v_x"), nullptr);
+  EXPECT_EQ(collected_maps(lattice_graining, {ends[0]}).find("displacement_v_x"), nullptr);
   testing::add_grain(ends[1], 0, 0, 0.5);
-  EXPECT_EQ(maps_of(lattice_graining, ends).find("displacement_v_x"), nullptr);
+  EXPECT_EQ(collected_maps(lattice_graining, ends).find("displacement_v_x"), nullptr);
 }
 
 }  // namespace

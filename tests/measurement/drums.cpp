@@ -143,9 +143,7 @@ TEST(Drums, OnlyTheLastMotionOfTheWallIsMeasured) {
 TEST(Drums, NothingToMeasureIsSaid) {
   EXPECT_THROW(measurement(SnapshotSource{0, {}}, {}), InputError);
   EXPECT_THROW(measurement_of(Snapshot{}), InputError);
-  MeasurementOptions beside;
-  beside.position = 18;
-  EXPECT_THROW(measurement_of(filled_drum(20, 2, 0.3, 0.02), beside), InputError);
+  EXPECT_THROW(measurement_of(filled_drum(20, 2, 0.3, 0.02), {.position = 18}), InputError);
 }
 
 }  // namespace

@@ -16,10 +16,7 @@ namespace drumlin {
 using namespace particles;
 namespace {
 
-/// Maps of one snapshot per batch.
-FieldMap maps_of(const CoarseGraining& graining, const std::vector<Snapshot>& snapshots, double radius = 0) {
-  return testing::collected_maps(graining, snapshots, radius);
-}
+using testing::collected_maps;
 
 /// Discs of diameter 1 on a square lattice over 16 x 16: a kernel of width 1 reproduces straight lines on it.
 Snapshot square_lattice(const std::function<std::array<double, 2>(double, double)>& velocity) {
@@ -39,14 +36,8 @@ Snapshot square_lattice(const std::function<std::array<double, 2>(double, double
 /// Calls check(x, z, value of a field by name) at the nodes more than 2.5 d inside the square lattice.
 template <class Check>
 void each_inner_node(const FieldMap& map, Check check) {
-  int checked = 0;
-  for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
-    const double x = map.grid.x_of(node % map.grid.columns), z = map.grid.z_of(node / map.grid.columns);
-    if (std::abs(x) > 5.5 || std::abs(z) > 5.5) continue;
-    ++checked;
-    check(x, z, [&](const char* name) { return map.field(name).value[node]; });
-  }
-  EXPECT_GT(checked, 100);
+  const auto inside = [](double x, double z) { return std::abs(x) <= 5.5 && std::abs(z) <= 5.5; };
+  EXPECT_GT(testing::each_node(map, inside, check), 100);
 }
 
 CoarseGraining lattice_graining(double spacing = 1) {
@@ -54,9 +45,9 @@ CoarseGraining lattice_graining(double spacing = 1) {
 }
 
 TEST(FieldMaps, StraightVelocityFieldsHaveTheirGradient) {
-  const FieldMap map = maps_of(lattice_graining(0.5), {square_lattice([](double x, double z) {
-                                 return std::array{1 + 0.3 * x + 0.7 * z, -0.2 * x - 0.1 * z};
-                               })});
+  const FieldMap map = collected_maps(lattice_graining(0.5), {square_lattice([](double x, double z) {
+                                        return std::array{1 + 0.3 * x + 0.7 * z, -0.2 * x - 0.1 * z};
+                                      })});
   each_inner_node(map, [](double x, double z, auto value) {
     EXPECT_NEAR(value("nu"), std::numbers::pi / 4, 1e-12);
     EXPECT_NEAR(value("number_density"), 1, 1e-12);
@@ -74,9 +65,9 @@ TEST(FieldMaps, StraightVelocityFieldsHaveTheirGradient) {
 }
 
 TEST(FieldMaps, CurvedVelocityFieldsAreSmoothedByTheVarianceOfTheKernel) {
-  const FieldMap map = maps_of(lattice_graining(), {square_lattice([](double, double z) {
-                                 return std::array{z * z * z, z * z};
-                               })});
+  const FieldMap map = collected_maps(lattice_graining(), {square_lattice([](double, double z) {
+                                        return std::array{z * z * z, z * z};
+                                      })});
   EXPECT_TRUE(map.field("v_x").ci99.empty());  // of one batch
   each_inner_node(map, [](double, double z, auto value) {
     EXPECT_NEAR(value("v_z"), z * z + 1.0 / 3, 1e-11);
@@ -90,24 +81,25 @@ TEST(FieldMaps, PackingAtRestInATurningDrumDoesNotMove) {
   const Snapshot snapshot = testing::filled_drum(radius, 2, 0.3, spin);
   const FlowFrame frame = frame_at_slope(3, -2, 0, -1, 0.3);
   const FieldMap map =
-      maps_of(coarse_graining(frame, -radius, radius, -radius, radius, 1, 1, 0), {snapshot}, radius);
-  int grains = 0;
-  for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
-    const double x = map.grid.x_of(node % map.grid.columns), z = map.grid.z_of(node / map.grid.columns);
-    const auto value = [&](const char* name) { return map.field(name).value[node]; };
-    if (std::hypot(x, z) > radius) {
-      EXPECT_TRUE(std::isnan(value("nu")));
-    } else if (z > 1.5) {
-      EXPECT_EQ(value("nu"), 0);
-      EXPECT_TRUE(std::isnan(value("v_x")));
-    } else if (z < -4 && std::hypot(x, z) < radius - 3) {
-      ++grains;
-      EXPECT_NEAR(value("v_x"), 0, 1e-14);
-      EXPECT_NEAR(value("omega"), 0, 1e-14);
-      EXPECT_NEAR(value("strain_rate"), 0, 1e-13);
-      EXPECT_NEAR(value("nu"), std::numbers::pi / (2 * std::sqrt(3.0)), 0.02);
-    }
-  }
+      collected_maps(coarse_graining(frame, -radius, radius, -radius, radius, 1, 1, 0), {snapshot}, radius);
+  const auto where = [&](auto inside) {
+    return [=](double x, double z) { return inside(std::hypot(x, z), z); };
+  };
+  testing::each_node(map, where([=](double r, double) { return r > radius; }),
+                     [](double, double, auto value) { EXPECT_TRUE(std::isnan(value("nu"))); });
+  testing::each_node(map, where([=](double r, double z) { return r <= radius && z > 1.5; }),
+                     [](double, double, auto value) {
+                       EXPECT_EQ(value("nu"), 0);
+                       EXPECT_TRUE(std::isnan(value("v_x")));
+                     });
+  const int grains =
+      testing::each_node(map, where([=](double r, double z) { return r < radius - 3 && z < -4; }),
+                         [](double, double, auto value) {
+                           EXPECT_NEAR(value("v_x"), 0, 1e-14);
+                           EXPECT_NEAR(value("omega"), 0, 1e-14);
+                           EXPECT_NEAR(value("strain_rate"), 0, 1e-13);
+                           EXPECT_NEAR(value("nu"), std::numbers::pi / (2 * std::sqrt(3.0)), 0.02);
+                         });
   EXPECT_GT(grains, 50);
 }
 
@@ -130,7 +122,8 @@ TEST(FieldMaps, ColumnsUnderTheirWeightAreBalancedToRounding) {
   // Across the whole height, floor and surface included: the force of the floor is part of the balance.
   for (const Snapshot& columns : {testing::stacked_columns(6, 20, 0.3), layered_columns(3, 0.3)})
     for (double width : {1.0, 1.7, 3.0}) {
-      const FieldMap map = maps_of(coarse_graining(FlowFrame{}, 0, 6, -4, 24, 0.5, width, 6), {columns});
+      const FieldMap map =
+          collected_maps(coarse_graining(FlowFrame{}, 0, 6, -4, 24, 0.5, width, 6), {columns});
       int nodes = 0;
       for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
         const double x = map.field("residual_x").value[node], z = map.field("residual_z").value[node];
@@ -145,19 +138,19 @@ TEST(FieldMaps, ColumnsUnderTheirWeightAreBalancedToRounding) {
 
 TEST(FieldMaps, EachHeightOfAColumnCarriesTheWeightAbove) {
   const double slope = 0.3;
-  const FieldMap map =
-      maps_of(coarse_graining(FlowFrame{}, 0, 6, 0, 20, 0.5, 1, 6), {testing::stacked_columns(6, 20, slope)});
+  const FieldMap map = collected_maps(coarse_graining(FlowFrame{}, 0, 6, 0, 20, 0.5, 1, 6),
+                                      {testing::stacked_columns(6, 20, slope)});
   const double weight = std::numbers::pi / 4;
-  for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
-    const double depth = 20 - map.grid.z_of(node / map.grid.columns);
-    if (depth < 3 || depth > 17) continue;  // the kernel stays among grains with two contacts
-    const auto value = [&](const char* name) { return map.field(name).value[node]; };
+  // The kernel stays among grains with two contacts.
+  const auto inside = [](double, double z) { return z >= 3 && z <= 17; };
+  testing::each_node(map, inside, [&](double, double z, auto value) {
+    const double depth = 20 - z;
     // 1e-3: the quadrature along branches; the jumps of the force from disc to disc average out exactly.
     EXPECT_NEAR(value("sigma_zz") / (weight * depth * std::cos(slope)), 1, 2e-3);
     EXPECT_NEAR(value("sigma_xz") / (weight * depth * std::sin(slope)), 1, 2e-3);
     EXPECT_NEAR(value("fabric_zz"), 1, 1e-12);
     EXPECT_NEAR(value("coordination"), 2, 1e-12);
-  }
+  });
 }
 
 TEST(FieldMaps, VelocitiesThatChangeFromSnapshotToSnapshotAreKineticStress) {
@@ -165,7 +158,7 @@ TEST(FieldMaps, VelocitiesThatChangeFromSnapshotToSnapshotAreKineticStress) {
   const auto moving = [&](double sign) {
     return square_lattice([=](double, double) { return std::array{sign * u, -sign * u / 2}; });
   };
-  const FieldMap map = maps_of(lattice_graining(), {moving(1), moving(-1)});
+  const FieldMap map = collected_maps(lattice_graining(), {moving(1), moving(-1)});
   each_inner_node(map, [&](double, double, auto value) {
     EXPECT_NEAR(value("v_x"), 0, 1e-14);
     EXPECT_NEAR(value("sigma_xx_kinetic"), std::numbers::pi / 4 * u * u, 1e-12);
@@ -183,7 +176,7 @@ TEST(FieldMaps, TurningTheLaboratoryChangesNothing) {
   }
   const auto map_of = [](const Snapshot& s) {
     const FlowFrame frame = frame_at_slope(s.container_x, s.container_z, s.gravity_x, s.gravity_z, 0.3);
-    return maps_of(coarse_graining(frame, -10, 10, -10, 10, 1, 1.5, 0), {s}, 10);
+    return collected_maps(coarse_graining(frame, -10, 10, -10, 10, 1, 1.5, 0), {s}, 10);
   };
   const FieldMap a = map_of(snapshot), b = map_of(testing::turned(snapshot, 1.1));
   for (std::size_t f = 0; f < a.fields.size(); ++f)
@@ -216,12 +209,12 @@ Snapshot few_grains_of_two_densities() {
 TEST(FieldMaps, OfSeveralDensitiesAreDirectSumsWithEachGrainsOwnMass) {
   const Snapshot snapshot = few_grains_of_two_densities();
   const CoarseGraining graining = coarse_graining(FlowFrame{}, -1, 1, -1, 1, 0.5, 1, 0);
-  const FieldMap map = maps_of(graining, {snapshot});
+  const FieldMap map = collected_maps(graining, {snapshot});
   // The contact part alone, of the same grains at rest: it takes no mass.
   Snapshot resting = snapshot;
   resting.v_x.assign(3, 0);
   resting.v_z.assign(3, 0);
-  const FieldMap contacts = maps_of(graining, {resting});
+  const FieldMap contacts = collected_maps(graining, {resting});
   std::size_t nodes = 0;
   for (std::size_t node = 0; node < map.grid.nodes(); ++node) {
     const double x = map.grid.x_of(node % map.grid.columns), z = map.grid.z_of(node / map.grid.columns);
@@ -256,8 +249,9 @@ TEST(FieldMaps, AreasAreToldApartFromTheFirstDenseSnapshotOn) {
   Snapshot plain = dense;
   plain.mass.clear();
   const CoarseGraining graining = coarse_graining(FlowFrame{}, -1, 1, -1, 1, 0.5, 1, 0);
-  const FieldMap both = maps_of(graining, {plain, dense}), turned = maps_of(graining, {dense, plain}),
-                 none = maps_of(graining, {plain, plain});
+  const FieldMap both = collected_maps(graining, {plain, dense}),
+                 turned = collected_maps(graining, {dense, plain}),
+                 none = collected_maps(graining, {plain, plain});
   EXPECT_EQ(none.find("density"), nullptr);
   for (std::size_t node = 0; node < both.grid.nodes(); ++node) {
     EXPECT_NEAR(both.field("nu").value[node], none.field("nu").value[node], 1e-12);

@@ -122,10 +122,7 @@ TEST(CellProfiles, CellsOfUnequalGrainsCountByTheirArea) {
     for (int column = 0; column < 6; ++column)
       testing::add_grain(rows, column + 0.5, 1.6 * (row / 2) + (row % 2 == 0 ? 0.5 : 1.3),
                          row % 2 == 0 ? 0.5 : 0.3);
-  MeasurementOptions options;
-  options.voronoi = true;
-  options.layer_thickness = 1.6;
-  const Measurement result = testing::measurement_of(rows, options);
+  const Measurement result = testing::measurement_of(rows, {.layer_thickness = 1.6, .voronoi = true});
   const double large = pi / 4, small = pi * 0.09;
   // The radical line between rows touching at 1.0 lies there: cells 1 high, and 0.6.
   EXPECT_NEAR(testing::at(result, "nu_voronoi", 1), (large + small) / 1.6, 1e-12);
@@ -138,9 +135,7 @@ TEST(CellProfiles, IntervalsStandBesideThem) {
     all.push_back(testing::stacked_columns(6, 10, 0));
     for (SnapshotContact& contact : all.back().contacts) contact.impulse_n *= 1 + 0.1 * std::sin(s);
   }
-  MeasurementOptions options;
-  options.voronoi = true;
-  const Measurement result = measurement(testing::source_of(all), options);
+  const Measurement result = measurement(testing::source_of(all), {.voronoi = true});
   const ProfileColumn& stress = result.profiles.column("sigma_zz_grains");
   EXPECT_GT(stress.ci99[4], 0);
   EXPECT_NEAR(stress.ci99[4] / stress.value[4],

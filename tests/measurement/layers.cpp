@@ -13,9 +13,7 @@ using testing::measurement_of;
 using testing::stacked_columns;
 
 TEST(Layers, ThinLayersKeepTheMeanStress) {
-  MeasurementOptions options;
-  options.layer_thickness = 0.25;
-  const Measurement result = measurement_of(stacked_columns(6, 8, 0), options);
+  const Measurement result = measurement_of(stacked_columns(6, 8, 0), {.layer_thickness = 0.25});
   const auto& sigma_zz = result.profiles.column("sigma_zz").value;
   ASSERT_EQ(sigma_zz.size(), 32u);
   // Lower half of a disc: the force below it; upper half: the force above it.
@@ -66,10 +64,7 @@ TEST(Layers, BranchAcrossTheSideOfTheSliceCountsWithItsShareInside) {
   pair.time_step = 0.5;
   for (double x : {-0.5, 0.5}) testing::add_grain(pair, x, 0.5, 0.5);
   pair.contacts.push_back({1, 0, 1, 0, 1.5, 0});
-  MeasurementOptions options;
-  options.slice_width = 1;
-  options.position = 0.25;
-  const Measurement result = measurement_of(pair, options);
+  const Measurement result = measurement_of(pair, {.position = 0.25, .slice_width = 1});
   EXPECT_NEAR(at(result, "sigma_xx", 0), 3 * 0.75, 1e-12);
 }
 

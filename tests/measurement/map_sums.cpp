@@ -96,7 +96,7 @@ TEST(MapSums, WallsAndFabricAddUpAndSlopesToNothing) {
     }
     EXPECT_NEAR(cell * total.wall_force[0], wall_force_x, 1e-11);
     EXPECT_NEAR(cell * (total.fabric[0] + total.fabric[2]), sides, 1e-5);  // normals are stored as floats
-    EXPECT_NEAR(cell * total.slope_x[0], 0, 1e-11);
+    EXPECT_NEAR(cell * total.carried.slope_x[0], 0, 1e-11);
   }
 }
 

@@ -145,7 +145,7 @@ TEST(Scattered, CellsOfThePackingDoNotFeelWhatFliesFarAway) {
   for (std::size_t i = 0; i < spray.x.size(); ++i) add_grain(with_spray, spray.x[i], spray.z[i], 0.5);
   const auto alone = voronoi_cells(block), among = voronoi_cells(with_spray);
   for (std::size_t i = 0; i < alone.size(); ++i) EXPECT_NEAR(among[i].area, alone[i].area, 1e-12) << i;
-  const double lonely = std::numbers::pi * VoronoiOptions{}.reach * VoronoiOptions{}.reach;
+  const double lonely = std::numbers::pi * voronoi_reach * voronoi_reach;
   for (std::size_t i = alone.size(); i < among.size(); ++i) EXPECT_NEAR(among[i].area, lonely, 1e-9) << i;
 }
 

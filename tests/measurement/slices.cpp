@@ -88,9 +88,7 @@ TEST(Gradients, AreNotThereUnlessAskedFor) {
 
 TEST(Slices, StandWhereTheyAreAskedForAndKnowTheirOwnSurface) {
   const Snapshot drum = testing::filled_drum(30, 2, 0.35, 0.02);
-  MeasurementOptions options;
-  options.slices = SlicesRequest{{-10, 12.5}, 4};
-  const Measurement result = measurement_of(drum, options);
+  const Measurement result = measurement_of(drum, {.slices = SlicesRequest{{-10, 12.5}, 4}});
   ASSERT_EQ(result.slices.size(), 2u);
   EXPECT_EQ(result.slices[1].position, 12.5);
   EXPECT_NEAR(result.slices[1].axis_depth, result.axis_depth, 0.3);  // the surface is straight
@@ -99,9 +97,8 @@ TEST(Slices, StandWhereTheyAreAskedForAndKnowTheirOwnSurface) {
 }
 
 TEST(Slices, SpreadOverTheSurfaceByThemselves) {
-  MeasurementOptions options;
-  options.slices = SlicesRequest{};
-  const Measurement result = measurement_of(testing::filled_drum(30, 2, 0.35, 0.02), options);
+  const Measurement result =
+      measurement_of(testing::filled_drum(30, 2, 0.35, 0.02), {.slices = SlicesRequest{}});
   ASSERT_EQ(result.slices.size(), 5u);
   EXPECT_NEAR(result.slices[4].position, 0.6 * std::sqrt(30.0 * 30 - 2 * 2), 0.2);
   EXPECT_NEAR(result.slices[2].position, 0, 1e-12);
@@ -117,9 +114,7 @@ TEST(Sensitivity, EveryVariantChangesOnlyWhatItsWindowReaches) {
     drum.v_x[i] += speed * std::cos(0.35);
     drum.v_z[i] -= speed * std::sin(0.35);
   }
-  MeasurementOptions options;
-  options.sensitivity = true;
-  const Measurement result = measurement_of(drum, options);
+  const Measurement result = measurement_of(drum, {.sensitivity = true});
   const auto value = [&](const std::string& change, const std::string& name) {
     for (const ScalarVariant& variant : result.variants)
       if (variant.change == change) return variant.scalars.value(name);

@@ -43,10 +43,9 @@ TEST(Derivatives, ShearRateIsOfSecondOrderInTheThickness) {
   for (std::size_t i = 0; i < cloud.x.size(); ++i) cloud.v_x[i] = std::pow(cloud.z[i] / 4, 3);
   std::vector<double> error;
   for (const double thickness : {2.0, 1.0, 0.5}) {
-    MeasurementOptions options;
-    options.layer_thickness = thickness;
     const double z = 8 + thickness / 2;
-    error.push_back(value_at(measurement_of(cloud, options), "shear_rate", z) - 3 * z * z / 64);
+    error.push_back(value_at(measurement_of(cloud, {.layer_thickness = thickness}), "shear_rate", z) -
+                    3 * z * z / 64);
     // v''' h^2 (1/6 + 1/24): the difference over two layers, and the mean over each (by 8 rows of grains or
     // more).
     const double expected = 6.0 / 64 * 5 / 24 * thickness * thickness;
@@ -60,10 +59,8 @@ TEST(Derivatives, VorticityIsOfSecondOrderInTheWidth) {
   Snapshot cloud = even_cloud();
   for (std::size_t i = 0; i < cloud.x.size(); ++i) cloud.v_z[i] = std::pow(cloud.x[i] / 4, 3);
   for (const double width : {16.0, 8.0, 4.0}) {
-    MeasurementOptions options;
-    options.slice_width = width;
     // Straight line through x^3 over -+w/2: its slope is 3/20 w^2, that of the curve in the middle 0.
-    EXPECT_NEAR(value_at(measurement_of(cloud, options), "half_vorticity", 8.5),
+    EXPECT_NEAR(value_at(measurement_of(cloud, {.slice_width = width}), "half_vorticity", 8.5),
                 -0.5 * 3.0 / 20 * width * width / 64, 2e-3 * width * width / 64);
   }
 }
@@ -123,10 +120,8 @@ TEST(ForceNetwork, StressOfALoadedLatticeIsExact) {
     xz -= f_x * n_z / cell;
   }
   constexpr double rounding = 1e-6;  // normals are stored in single precision
-  MeasurementOptions options;
-  options.layer_thickness = std::sqrt(3.0) / 2;
-  options.voronoi = true;
-  const Measurement result = measurement_of(lattice, options);
+  const Measurement result =
+      measurement_of(lattice, {.layer_thickness = std::sqrt(3.0) / 2, .voronoi = true});
   ASSERT_EQ(result.profiles.z.size(), 14u);  // slivers of the outer rows stand out of their layers
   for (std::size_t l = 2; l < 12; ++l)
     for (const char* suffix : {"", "_grains"}) {

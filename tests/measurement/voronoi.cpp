@@ -16,7 +16,7 @@ namespace {
 using std::numbers::pi;
 using testing::add_grain;
 
-constexpr double reach = VoronoiOptions{}.reach;
+constexpr double reach = voronoi_reach;
 
 /// Area of a disc about the origin within |x| < half_width, upper half.
 double half_strip(double radius, double half_width) {
@@ -49,9 +49,9 @@ Snapshot thrown(double container_radius, const std::vector<double>& radii, std::
 }
 
 /// Areas by the definition itself: each point of a fine grid goes to the grain of least power.
-std::vector<double> areas_by_points(const Snapshot& s, const VoronoiOptions& options, double step) {
+std::vector<double> areas_by_points(const Snapshot& s, double step) {
   std::vector<double> areas(s.x.size(), 0.0);
-  const double tangent_squared = options.reach * options.reach - 0.25;
+  const double tangent_squared = reach * reach - 0.25;
   const double radius = s.container_radius;
   for (double z = -radius + step / 2; z < radius; z += step)
     for (double x = -radius + step / 2; x < radius; x += step) {
@@ -60,9 +60,7 @@ std::vector<double> areas_by_points(const Snapshot& s, const VoronoiOptions& opt
       std::size_t owner = areas.size();
       for (std::size_t i = 0; i < s.x.size(); ++i) {
         const double to_x = s.x[i] - s.container_x - x, to_z = s.z[i] - s.container_z - z;
-        const double weight =
-            options.tessellation == Tessellation::radical ? s.radius[i] * s.radius[i] : 0.25;
-        const double power = to_x * to_x + to_z * to_z - weight;
+        const double power = to_x * to_x + to_z * to_z - s.radius[i] * s.radius[i];
         if (power < least) least = power, owner = i;
       }
       if (owner < areas.size()) areas[owner] += step * step;
@@ -70,10 +68,10 @@ std::vector<double> areas_by_points(const Snapshot& s, const VoronoiOptions& opt
   return areas;
 }
 
-void expect_areas_by_points(const Snapshot& snapshot, const VoronoiOptions& options) {
+void expect_areas_by_points(const Snapshot& snapshot) {
   constexpr double step = 0.02;
-  const auto cells = voronoi_cells(snapshot, options);
-  const auto expected = areas_by_points(snapshot, options, step);
+  const auto cells = voronoi_cells(snapshot);
+  const auto expected = areas_by_points(snapshot, step);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     // Points along a boundary of length L are right by chance: about step^2 sqrt(L/step), three times that.
     const double boundary = 4 * std::sqrt(pi * std::max(expected[i], 0.01));
@@ -104,21 +102,19 @@ TEST(Voronoi, GrainsThatLeftThePeriodStayInIt) {
 TEST(Voronoi, CellsFillTheContainer) {
   for (const auto& radii : {std::vector{0.5}, std::vector{0.5, 0.3}, std::vector{0.6, 0.04, 0.05, 0.04}}) {
     const Snapshot snapshot = thrown(9, radii, 150, 1);
-    const auto cells = voronoi_cells(snapshot, {Tessellation::radical, 20});
+    const auto cells = voronoi_cells(snapshot, 20);
     for (const VoronoiCell& cell : cells) EXPECT_FALSE(cell.open);
     EXPECT_NEAR(sum_of(cells), pi * 81, 1e-10);
-    EXPECT_NEAR(sum_of(voronoi_cells(snapshot, {Tessellation::ordinary, 20})), pi * 81, 1e-10);
   }
 }
 
 TEST(Voronoi, EachCellIsTheSetOfPointsNearestByPower) {
   // Loose, so that many cells end at the reach, at the container and at both.
-  for (const Tessellation kind : {Tessellation::radical, Tessellation::ordinary})
-    expect_areas_by_points(thrown(5, {0.5, 0.3}, 45, 3), {kind, reach});
-  expect_areas_by_points(thrown(5, {1.2, 0.1, 0.05, 0.2, 0.1, 0.05}, 60, 4), {Tessellation::radical, reach});
+  expect_areas_by_points(thrown(5, {0.5, 0.3}, 45, 3));
+  expect_areas_by_points(thrown(5, {1.2, 0.1, 0.05, 0.2, 0.1, 0.05}, 60, 4));
   Snapshot overlapping = thrown(5, {0.4}, 50, 5);
   for (std::size_t i = 0; i < overlapping.radius.size(); ++i) overlapping.radius[i] = 0.4 + 0.05 * (i % 20);
-  expect_areas_by_points(overlapping, {Tessellation::radical, reach});
+  expect_areas_by_points(overlapping);
 }
 
 TEST(Voronoi, UnequalDiscsThatTouchArePartedAtTheContact) {
@@ -126,12 +122,10 @@ TEST(Voronoi, UnequalDiscsThatTouchArePartedAtTheContact) {
   chain.period_x = 1.5;
   add_grain(chain, 0, 0, 0.5);
   add_grain(chain, 0.75, 0, 0.25);
-  const auto radical = voronoi_cells(chain);
+  const auto cells = voronoi_cells(chain);
   const double tangent_squared = reach * reach - 0.25;
-  EXPECT_NEAR(radical[0].area, 2 * half_strip(reach, 0.5), 1e-12);
-  EXPECT_NEAR(radical[1].area, 2 * half_strip(std::sqrt(0.0625 + tangent_squared), 0.25), 1e-12);
-  const auto ordinary = voronoi_cells(chain, {Tessellation::ordinary, reach});
-  for (const VoronoiCell& cell : ordinary) EXPECT_NEAR(cell.area, 2 * half_strip(reach, 0.375), 1e-12);
+  EXPECT_NEAR(cells[0].area, 2 * half_strip(reach, 0.5), 1e-12);
+  EXPECT_NEAR(cells[1].area, 2 * half_strip(std::sqrt(0.0625 + tangent_squared), 0.25), 1e-12);
 }
 
 TEST(Voronoi, GrainsAloneOrInARowEndAtTheReach) {

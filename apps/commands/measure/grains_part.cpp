@@ -61,7 +61,7 @@ Part grains_part(const MeasureOptions& options) {
     for (const fs::path& file : files)
       particles::write_grains(output.folder / "grains" / file.filename(),
                               record_of(particles::read_snapshot(file), measured, **mean_velocity));
-    output.content["settings"]["grains"] = {{"cell_reach", particles::VoronoiOptions{}.reach},
+    output.content["settings"]["grains"] = {{"cell_reach", particles::voronoi_reach},
                                             {"files", static_cast<int>(files.size())}};
   };
   part.figures = "grain_field_figures.py";

@@ -8,11 +8,10 @@ namespace drumlin {
 /// `row`: the place, in spacings of the grid.
 template <class Action>
 void each_corner(double column, double row, Action action) {
-  const double west = std::floor(column), south = std::floor(row);
-  for (const double up : {0.0, 1.0})
-    for (const double right : {0.0, 1.0})
-      action(west + right, south + up,
-             (1 - std::abs(column - west - right)) * (1 - std::abs(row - south - up)));
+  const double west = std::floor(column), south = std::floor(row), east = column - west, north = row - south;
+  for (const int up : {0, 1})
+    for (const int right : {0, 1})
+      action(west + right, south + up, (right ? east : 1 - east) * (up ? north : 1 - north));
 }
 
 }  // namespace drumlin

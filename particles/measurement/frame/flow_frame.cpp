@@ -12,14 +12,16 @@
 
 namespace drumlin::particles {
 
+FlowFrame FlowFrame::at_slope(double theta) const {
+  const double cosine = std::cos(theta), sine = std::sin(theta);
+  return {origin_x, origin_z, cosine * x_axis_x + sine * x_axis_z, cosine * x_axis_z - sine * x_axis_x};
+}
+
 FlowFrame frame_at_slope(double origin_x, double origin_z, double gravity_x, double gravity_z, double theta) {
   const double gravity = std::hypot(gravity_x, gravity_z);
   const double up_x = gravity > 0 ? -gravity_x / gravity : 0;
   const double up_z = gravity > 0 ? -gravity_z / gravity : 1;
-  // Horizontal = (up_z, -up_x); the x axis is that, turned clockwise by theta.
-  const double x_axis_x = std::cos(theta) * up_z - std::sin(theta) * up_x;
-  const double x_axis_z = -std::cos(theta) * up_x - std::sin(theta) * up_z;
-  return FlowFrame{origin_x, origin_z, x_axis_x, x_axis_z};
+  return FlowFrame{origin_x, origin_z, up_z, -up_x}.at_slope(theta);
 }
 
 Snapshot mirrored(Snapshot snapshot) {
@@ -108,6 +110,12 @@ CoverageMap CoverageBatches::batch(std::size_t b) const {
   file_->read(stored_[b].place, std::as_writable_bytes(std::span(map.area_)));
   map.snapshots_ = stored_[b].snapshots;
   return map;
+}
+
+CoverageMap CoverageBatches::whole() const {
+  CoverageMap sum = batch(0);
+  for (std::size_t b = 1; b < size(); ++b) add_times(1, batch(b), sum);
+  return sum;
 }
 
 double CoverageMap::volume_fraction(double x, double z) const {

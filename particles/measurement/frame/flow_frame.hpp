@@ -18,6 +18,8 @@ namespace drumlin::particles {
 struct FlowFrame {
   double origin_x = 0, origin_z = 0;  ///< the drum's axis; without a container the grains' mean x and z = 0
   double x_axis_x = 1, x_axis_z = 0;  ///< unit vector along the surface
+  /// Its axes turned clockwise.
+  FlowFrame at_slope(double theta) const;
   /// The coordinates of a place, and the components of a vector.
   std::array<double, 2> place(double x, double z) const { return turned(x - origin_x, z - origin_z); }
   std::array<double, 2> turned(double v_x, double v_z) const {
@@ -69,6 +71,8 @@ class CoverageBatches {
   void add(const Snapshot& snapshot, const FlowFrame& frame, std::size_t batch);
   std::size_t size() const { return stored_.size() + 1; }
   CoverageMap batch(std::size_t b) const;
+  /// Of all batches.
+  CoverageMap whole() const;
 
  private:
   struct Stored {

@@ -1,6 +1,5 @@
 #include "particles/measurement/frame/flow_snapshot.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include "particles/bodies/bodies.hpp"
@@ -34,7 +33,7 @@ void relative_velocities(const Snapshot& snapshot, VelocityKind kind, RelativeVe
   const bool windowed = kind == VelocityKind::window && window > 0 && !snapshot.displacement_x.empty();
   const bool turning = snapshot.container_radius > 0 && snapshot.wall_spin != 0;
   const double spin = turning ? snapshot.wall_spin : 0;
-  const double cosine = std::cos(spin * window), sine = std::sin(spin * window);
+  const Rigid turn(Pose{spin * window});
   for (std::size_t i = 0; i < count; ++i) {
     const double x = snapshot.x[i] - snapshot.container_x, z = snapshot.z[i] - snapshot.container_z;
     if (!windowed) {
@@ -49,10 +48,9 @@ void relative_velocities(const Snapshot& snapshot, VelocityKind kind, RelativeVe
       continue;
     }
     // Where the grain was, carried along with the drum: the difference to where it is now is its own motion.
-    const double carried_x = (x - d_x) * cosine + (z - d_z) * sine;
-    const double carried_z = (z - d_z) * cosine - (x - d_x) * sine;
-    result.x[i] = (x - carried_x) / window;
-    result.z[i] = (z - carried_z) / window;
+    const Point carried = turn.turned({x - d_x, z - d_z});
+    result.x[i] = (x - carried.x) / window;
+    result.z[i] = (z - carried.z) / window;
   }
 }
 

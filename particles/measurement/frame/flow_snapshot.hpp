@@ -66,6 +66,17 @@ inline HalfBranch<2> FlowSnapshot::half_branch(std::size_t side) const {
           contact.j < 0};
 }
 
+/// Numbers of snapshots, and of those that know spins, contacts and densities of their own.
+struct KnownSnapshots {
+  double count = 0, spin = 0, contacts = 0, densities = 0;
+  void add(const FlowSnapshot& snapshot) {
+    count += 1;
+    spin += snapshot.spin.empty() ? 0 : 1;
+    contacts += snapshot.contacts_known ? 1 : 0;
+    densities += snapshot.density.empty() ? 0 : 1;
+  }
+};
+
 /// Which velocity of a grain is meant.
 enum class VelocityKind { window, instantaneous };
 

@@ -29,15 +29,15 @@ struct MeasurementOptions {
   double wall_margin = 3;           ///< so do means over the static phase, from the wall
   double fluctuation_I_min = 1e-4;  ///< least I of the power laws of the fluctuations
   std::size_t batches = 20;         ///< of the intervals
-  ProfileScalarOptions scalars;
+  ProfileScalarOptions scalars = {};
   /// Where a file without a name takes what does not fit into memory.
   std::filesystem::path scratch_folder = std::filesystem::temp_directory_path();
 
-  std::optional<double>
-      gradient_step;  ///< derivatives from slices at position -+ this; cut to a quarter of half the chord
-  std::optional<SlicesRequest> slices;  ///< more profiles; none in a periodic domain
-  bool sensitivity = false;             ///< the scalars by other windows as well
-  bool voronoi = false;                 ///< columns of the middle slice by Voronoi cells
+  std::optional<double> gradient_step =
+      {};  ///< derivatives from slices at position -+ this; cut to a quarter of half the chord
+  std::optional<SlicesRequest> slices = {};  ///< more profiles; none in a periodic domain
+  bool sensitivity = false;                  ///< the scalars by other windows as well
+  bool voronoi = false;                      ///< columns of the middle slice by Voronoi cells
 };
 
 /// Where and how a run is measured: what a part needs to know before it sees the first snapshot.

@@ -131,13 +131,12 @@ Survey survey(const Recording& recording, std::size_t batches, std::shared_ptr<S
 
 SlopeEstimate slope_estimate(const Survey& found, double first_guess, const SlopeOptions& options) {
   const CoverageBatches& coverage = *found.coverage;
-  CoverageMap total = coverage.batch(0);
-  for (std::size_t b = 1; b < coverage.size(); ++b) add_times(1, coverage.batch(b), total);
+  const CoverageMap whole = coverage.whole();
   SlopeEstimate estimate;
-  estimate.slope = isoline_slope(total, first_guess, options);
+  estimate.slope = isoline_slope(whole, first_guess, options);
   std::vector<double> leave_one_out;
   for (std::size_t b = 0; b < coverage.size() && coverage.size() > 1; ++b) {
-    CoverageMap rest = total;
+    CoverageMap rest = whole;
     add_times(-1, coverage.batch(b), rest);
     leave_one_out.push_back(isoline_slope(rest, first_guess, options).theta);
   }

@@ -15,12 +15,12 @@ void add_stress(const Tensor<2>& pressure, GrainStress& stress) {
 }  // namespace
 
 GrainFields grain_fields(const Snapshot& snapshot, const FlowSnapshot& in_frame,
-                         const VelocityMap* mean_velocity, const VoronoiOptions& options) {
+                         const VelocityMap* mean_velocity) {
   GrainFields fields;
   fields.v_x = in_frame.v_x;
   fields.v_z = in_frame.v_z;
   fields.spin = in_frame.spin;
-  for (const VoronoiCell& cell : voronoi_cells(snapshot, options)) {
+  for (const VoronoiCell& cell : voronoi_cells(snapshot)) {
     // NaN also where there is no room: nothing can be divided by it.
     fields.cell_area.push_back(cell.area > 0 ? cell.area : no_value);
     fields.open_cell.push_back(cell.open ? 1 : 0);

@@ -36,6 +36,6 @@ struct GrainFields {
 
 /// Without `mean_velocity` there is no kinetic stress.
 GrainFields grain_fields(const Snapshot& snapshot, const FlowSnapshot& in_frame,
-                         const VelocityMap* mean_velocity = nullptr, const VoronoiOptions& options = {});
+                         const VelocityMap* mean_velocity = nullptr);
 
 }  // namespace drumlin::particles

@@ -12,7 +12,9 @@
 namespace drumlin::particles {
 namespace {
 
-constexpr double mean_weight = 0.25;  // of a grain of diameter 1
+constexpr double mean_weight = 0.25;  // square of the radius of a grain of diameter 1
+
+double square(double value) { return value * value; }
 
 /// The period of a snapshot; of one that is open in z it may begin anywhere.
 Period domain_of(const Snapshot& snapshot) {
@@ -23,12 +25,11 @@ Period domain_of(const Snapshot& snapshot) {
 
 }  // namespace
 
-VoronoiTessellation::VoronoiTessellation(const Snapshot& snapshot, const VoronoiOptions& options)
-    : options_(options),
-      // What is inside a circle knows no period.
-      period_(snapshot.container_radius > 0 ? Period{} : domain_of(snapshot)),
+VoronoiTessellation::VoronoiTessellation(const Snapshot& snapshot, double reach)
+    // What is inside a circle knows no period.
+    : period_(snapshot.container_radius > 0 ? Period{} : domain_of(snapshot)),
       container_radius_(snapshot.container_radius),
-      tangent_squared_(options.reach * options.reach - mean_weight) {
+      tangent_squared_(reach * reach - mean_weight) {
   // No place of a cell that is periodic in both directions is half as far from an image of a grain.
   if (!period_.open_z())
     tangent_squared_ = period_.length * period_.length + period_.length_z * period_.length_z;
@@ -45,24 +46,17 @@ VoronoiTessellation::VoronoiTessellation(const Snapshot& snapshot, const Voronoi
   if (sites_.count() == 0) return;
   grids_.sort({sites_, sites_.v_x, sites_.v_z, Period{}}, 0);  // images are looked for one by one
   for (const CellGrid& grid : grids_.grids()) {
-    Level& level = levels_.emplace_back();
-    for (const NearGrain& site : grid.grains()) {
-      level.largest_weight = std::max(level.largest_weight, weight(site.radius));
-      level.largest_diameter = std::max(level.largest_diameter, 2 * site.radius);
-    }
+    double& largest = largest_.emplace_back(0);
+    for (const NearGrain& site : grid.grains()) largest = std::max(largest, site.radius);
   }
-}
-
-double VoronoiTessellation::weight(double radius) const {
-  return options_.tessellation == Tessellation::radical ? radius * radius : mean_weight;
 }
 
 bool VoronoiTessellation::gather(std::size_t own, const CellGrid& grid, double reach, double most_squared) {
   neighbours_.clear();
-  const double own_weight = weight(sites_.radius[own]);
+  const double own_weight = square(sites_.radius[own]);
   bool has_room = true;
   const auto add = [&](std::size_t site, double x, double z) {
-    const double distance_squared = x * x + z * z, its_weight = weight(sites_.radius[site]);
+    const double distance_squared = x * x + z * z, its_weight = square(sites_.radius[site]);
     if (distance_squared == 0) {
       if (its_weight > own_weight || (its_weight == own_weight && site < own)) has_room = false;
       return;
@@ -82,19 +76,19 @@ bool VoronoiTessellation::gather(std::size_t own, const CellGrid& grid, double r
   return has_room;
 }
 
-void VoronoiTessellation::cut_by_level(std::size_t site, std::size_t grid) {
-  const Level& level = levels_[grid];
-  const double own_weight = weight(sites_.radius[site]), end_squared = own_weight + tangent_squared_;
+void VoronoiTessellation::cut_by_grid(std::size_t site, std::size_t grid) {
+  const double largest = largest_[grid];
+  const double own_weight = square(sites_.radius[site]), end_squared = own_weight + tangent_squared_;
   double searched = 0;
   while (!polygon_.empty()) {
     const double most_squared = std::min(polygon_.largest_distance_squared(), end_squared);
     // Lines that come nearer than `most` belong to centres no farther than this.
     const double needed =
-        std::sqrt(most_squared) + std::sqrt(std::max(0.0, most_squared + level.largest_weight - own_weight));
+        std::sqrt(most_squared) + std::sqrt(std::max(0.0, most_squared + square(largest) - own_weight));
     if (searched >= needed) return;
     // In a dense packing corners lie within 0.7 diameters, so that neighbours within 1.5 settle nearly every
     // cell.
-    searched = searched == 0 ? std::min(needed, 1.5 * level.largest_diameter) : needed;
+    searched = searched == 0 ? std::min(needed, 3 * largest) : needed;
     if (!gather(site, grids_.grids()[grid], searched, most_squared)) {
       polygon_.clear();
       return;
@@ -115,10 +109,10 @@ VoronoiCell VoronoiTessellation::cell(std::size_t grain) {
   if (grains_[grain] < 0) return {no_value, false};
   const auto site = static_cast<std::size_t>(grains_[grain]);
   const double x = sites_.x[site], z = sites_.z[site];
-  const double end_squared = weight(sites_.radius[site]) + tangent_squared_, end = std::sqrt(end_squared);
+  const double end_squared = square(sites_.radius[site]) + tangent_squared_, end = std::sqrt(end_squared);
   // Not tangent to the circle at which the cell ends: roundings would grow there.
   polygon_.make_square(2 * end);
-  for (std::size_t level = 0; level < levels_.size(); ++level) cut_by_level(site, level);
+  for (std::size_t grid = 0; grid < largest_.size(); ++grid) cut_by_grid(site, grid);
   const double farthest_squared = polygon_.largest_distance_squared();
   const bool closed = farthest_squared <= end_squared;
   const double from_axis = std::sqrt(x * x + z * z);
@@ -130,8 +124,8 @@ VoronoiCell VoronoiTessellation::cell(std::size_t grain) {
   return {rounded.area, rounded.length_on_first > 0};
 }
 
-std::vector<VoronoiCell> voronoi_cells(const Snapshot& snapshot, const VoronoiOptions& options) {
-  VoronoiTessellation tessellation(snapshot, options);
+std::vector<VoronoiCell> voronoi_cells(const Snapshot& snapshot, double reach) {
+  VoronoiTessellation tessellation(snapshot, reach);
   std::vector<VoronoiCell> cells;
   cells.reserve(tessellation.count());
   for (std::size_t i = 0; i < tessellation.count(); ++i) cells.push_back(tessellation.cell(i));

@@ -26,9 +26,7 @@ Period period_at(const Snapshot& snapshot) {
   return period;
 }
 
-PlaneMatrix scaled(double factor, const PlaneMatrix& m) {
-  return {factor * m.xx, factor * m.xz, factor * m.zx, factor * m.zz};
-}
+constexpr PlaneMatrix unknown{no_value, no_value, no_value, no_value};
 
 using RegionSum = WholeGrainSum<2, 4>;
 
@@ -76,7 +74,8 @@ double share_inside(const Rectangle& box, double x, double z, double dx, double 
 }
 
 std::optional<PlaneMatrix> mean_gradient(const Rectangle& box, const Snapshot& before, const Snapshot& now) {
-  if (!(now.time > before.time)) return std::nullopt;
+  const double time = now.time - before.time;
+  if (!(time > 0)) return std::nullopt;
   std::optional<CellPath> path;
   if (before.cell && now.cell) path.emplace(*cell_instant(before), *cell_instant(now));
   const BoxBinning binning(box, path ? path->half_way() : period_at(now));
@@ -92,11 +91,9 @@ std::optional<PlaneMatrix> mean_gradient(const Rectangle& box, const Snapshot& b
     if (!binning.holds(at)) continue;
     const Point more = path ? path->change({at.x - half_way.x, at.z - half_way.z}) : Point{};
     const auto [x, z] = binning.place(at);
-    fit.add(1, {by.x + more.x, by.z + more.z, x, z});
+    fit.add(1, {(by.x + more.x) / time, (by.z + more.z) / time, x, z});
   }
-  const auto matrix = affine_matrix(fit);
-  if (!matrix) return std::nullopt;
-  return scaled(1 / (now.time - before.time), *matrix);
+  return affine_matrix(fit);
 }
 
 const RegionState& RegionHistory::add(const Snapshot& snapshot) {
@@ -111,7 +108,7 @@ const RegionState& RegionHistory::add(const Snapshot& snapshot) {
   RegionState next;
   next.time = snapshot.time;
   next.strain = state_.strain;
-  next.gradient = {no_value, no_value, no_value, no_value};
+  next.gradient = unknown;
   if (before_)
     if (const auto gradient = mean_gradient(box_, *before_, snapshot)) {
       next.gradient = *gradient;
@@ -122,7 +119,6 @@ const RegionState& RegionHistory::add(const Snapshot& snapshot) {
   const PlaneMatrix& G = next.gradient;
   const Tensor<2> gradient{{{G.xx, G.xz}, {G.zx, G.zz}}};
   const Fields<2> fields = derive(sum, Background<2>{box_.area(), std::isnan(G.xx) ? Tensor<2>{} : gradient});
-  constexpr PlaneMatrix unknown{no_value, no_value, no_value, no_value};
   next.grains = static_cast<std::size_t>(sum.grains);
   next.nu = fields.nu;
   next.kinetic = plane_matrix(fields.kinetic);

@@ -21,10 +21,7 @@ void add_times(double factor, const LayerSums& from, LayerSums& to) {
 
 void add_snapshot(const LayerGrid& grid, const FlowSnapshot& snapshot, LayerSums& sums) {
   LayerSums::Snapshots& known = sums.snapshots;
-  known.count += 1;
-  known.spin += snapshot.spin.empty() ? 0 : 1;
-  known.contacts += snapshot.contacts_known ? 1 : 0;
-  known.densities += snapshot.density.empty() ? 0 : 1;
+  known.add(snapshot);
   if (grid.rings) return accumulate(snapshot, RingBinning(grid), sums.layers);
   if (grid.closed) {
     const Period& cell = snapshot.cell;

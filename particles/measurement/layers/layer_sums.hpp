@@ -27,11 +27,9 @@ struct LayerSum : Moments<2, 4> {
 /// Sums of all layers over some snapshots.
 struct LayerSums {
   std::vector<LayerSum> layers;
-  /// Numbers of snapshots, and of those that know this; of a closed grid area of the cell and speed of the
-  /// image above.
-  struct Snapshots {
-    double count = 0, spin = 0, contacts = 0, densities = 0, cells = 0;
-    double cell_area = 0, cell_jump = 0;
+  struct Snapshots : KnownSnapshots {
+    double cells = 0;                     ///< of those with Voronoi cells
+    double cell_area = 0, cell_jump = 0;  ///< of a closed grid area of the cell and speed of the image above
   } snapshots;
 };
 void add_times(double factor, const LayerSums& from, LayerSums& to);

@@ -55,8 +55,9 @@ std::vector<WindowChange> window_changes(const MeasurementOptions& standard) {
 /// theta by other lines and ranges than that of the frame.
 void add_slope_variants(const Survey& found, double first_guess, double radius,
                         const MeasurementOptions& options, std::vector<ScalarVariant>& result) {
+  const CoverageMap coverage = found.coverage->whole();
   const auto add = [&](const std::string& change, const SlopeOptions& slope) {
-    const Slope line = slope_estimate(found, first_guess, slope).slope;
+    const Slope line = isoline_slope(coverage, first_guess, slope);
     result.push_back({change, {{{"theta_deg", line.theta * degrees, {}}}}, {}});
   };
   for (double nu : {0.3, 0.5, 0.6})
@@ -100,11 +101,7 @@ std::vector<VariantSlice> variant_slices(const Survey& found, const MeasurementF
   if (place.source == FrameSource::isoline) {
     const double mass_angle = statistics::mean(found.series.mass_angle);
     MeasurementFrame turned = place;
-    // `upright` is the frame of angle 0: turned clockwise by the angle of the centre of mass.
-    const FlowFrame& up = found.upright;
-    const double c = std::cos(mass_angle), s = std::sin(mass_angle);
-    turned.frame.x_axis_x = c * up.x_axis_x + s * up.x_axis_z;
-    turned.frame.x_axis_z = c * up.x_axis_z - s * up.x_axis_x;
+    turned.frame = found.upright.at_slope(mass_angle);
     variants.push_back({"frame at the angle of the centre of mass",
                         {slice(turned, 0, width, thickness)},
                         mass_angle,

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "particles/measurement/frame/intervals.hpp"
-
 namespace drumlin::particles {
 namespace {
 
@@ -41,10 +39,7 @@ void DisplacementDepositor::add_pair(const Snapshot& before, const Snapshot& now
       const std::array<double, 3> moments{mass * time, mass * (moved[0] + more.x),
                                           mass * (moved[1] + more.z)};
       binning.each_node(at, [&](MapPlace place_of_node, const KernelWeight& weight) {
-        MapNode& node = sums.nodes[place_of_node];
-        add_times(weight.phi, moments, node.moved);
-        add_times(weight.phi_x, moments, node.moved_slope_x);
-        add_times(weight.phi_z, moments, node.moved_slope_z);
+        sums.nodes[place_of_node].displaced.add(weight, moments);
       });
     });
   }

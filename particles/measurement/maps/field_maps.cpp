@@ -58,24 +58,27 @@ class RowMaker {
     return kernel_share_in_circle(x, z, batches_.graining().width, container_radius_);
   }
 
-  LeaveOneOut<MapValues> values_of(std::size_t place, double inside) const {
+  /// What is known at a node, and of its motion by displacements.
+  struct NodeValues {
+    MapValues seen, displaced;
+  };
+
+  LeaveOneOut<NodeValues> values_of(std::size_t place, double inside) const {
     std::vector<MapNode> batches(tile_.size());
     for (std::size_t b = 0; b < tile_.size(); ++b)
       if (!tile_[b].empty()) batches[b] = tile_[b][place];
     const LeaveOneOut<MapNode> sums = leave_one_out(batches);
-    LeaveOneOut<MapValues> values = each_of(
-        [&](const MapNode& node, const auto& all) { return values_at(node, all, inside); }, sums, snapshots_);
-    MapValues& whole = values.whole;
+    const MapValues whole = values_at(sums.whole, snapshots_.whole, inside);
     const PlaneMatrix pressure{whole.sigma_xx, -whole.sigma_xz, -whole.sigma_zx, whole.sigma_zz};
-    MapValues moved = whole;
-    set_motion(sums.whole, pressure, moved);
+    const MapValues displaced = displaced_values(sums.whole, pressure);
     const bool local = std::isfinite(whole.v_x) &&
-                       std::hypot(moved.moved_v_x, moved.moved_v_z) * snapshots_.whole.time <=
+                       std::hypot(displaced.v_x, displaced.v_z) * snapshots_.whole.time <=
                            longest_displacement * batches_.graining().width * snapshots_.whole.pairs;
-    if (local) whole = moved;
-    for (std::size_t b = 0; b < sums.without.size() && local; ++b)
-      set_motion(sums.without[b], pressure, values.without[b]);
-    return values;
+    return each_of(
+        [&](const MapNode& node, const MapSums::Snapshots& all) -> NodeValues {
+          return {values_at(node, all, inside), local ? displaced_values(node, pressure) : MapValues{}};
+        },
+        sums, snapshots_);
   }
 
   /// `place` within the tile; `row` counts from the first one of the tile.
@@ -83,16 +86,22 @@ class RowMaker {
     const double inside = share_inside(column, rows_.first_row + row);
     if (inside == 0) return;
     const std::size_t at = row * grid_.columns + column;
-    const LeaveOneOut<MapValues> values = values_of(place, inside);
-    const MapValues& whole = values.whole;
+    const LeaveOneOut<NodeValues> values = values_of(place, inside);
     for (std::size_t f = 0; f < fields_.size(); ++f) {
-      const auto& [name, value, needs, period] = fields_[f];
-      rows_.fields[f].value[at] = whole.*value;
+      const MapQuantity& field = fields_[f];
+      const auto value_of = [&](const NodeValues& one) {
+        return (field.displaced ? one.displaced : one.seen).*field.value;
+      };
+      const double value = rows_.fields[f].value[at] = value_of(values.whole);
       if (!values.without.empty())
-        rows_.fields[f].ci99[at] = ci99_of(values, [&, value = value, period = period](const MapValues& one) {
-          return period > 0 ? nearest_turn(one.*value - whole.*value, period) : one.*value;
+        rows_.fields[f].ci99[at] = ci99_of(values, [&](const NodeValues& one) {
+          return field.period > 0 ? nearest_turn(value_of(one) - value, field.period) : value_of(one);
         });
     }
+    const MapValues& whole = values.whole.seen;
+    const auto half_width = [&](double MapValues::*value) {
+      return ci99_of(values, [&](const NodeValues& one) { return one.seen.*value; });
+    };
     rows_.nodes[at] = {{whole.nu, whole.p, whole.I, whole.mu},
                        whole.d_v_x_dz,
                        whole.sigma_xz,
@@ -103,11 +112,11 @@ class RowMaker {
                        whole.residual_z_contact,
                        whole.inertia_x,
                        whole.inertia_z,
-                       ci99_of(values, &MapValues::mu),
-                       ci99_of(values, &MapValues::residual_x),
-                       ci99_of(values, &MapValues::residual_z)};
+                       half_width(&MapValues::mu),
+                       half_width(&MapValues::residual_x),
+                       half_width(&MapValues::residual_z)};
     for (std::size_t b = 0; b < values.without.size(); ++b) {
-      const MapValues& one = values.without[b];
+      const MapValues& one = values.without[b].seen;
       rows_.without[b][at] = {one.nu, one.p, one.I, one.mu};
     }
   }

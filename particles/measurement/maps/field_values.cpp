@@ -1,7 +1,8 @@
 #include "particles/measurement/maps/field_values.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <iterator>
 
 #include "coupling/core/results/quantities.hpp"
 #include "particles/measurement/frame/intervals.hpp"
@@ -11,75 +12,71 @@ namespace {
 
 using Known = MapSums::Snapshots;
 
-constexpr MapQuantity quantities[] = {
-    {"nu", &MapValues::nu},
-    {"v_x", &MapValues::v_x},
-    {"v_z", &MapValues::v_z},
-    {"omega", &MapValues::omega, &Known::spin},
-    {"d_v_x_dx", &MapValues::d_v_x_dx},
-    {"d_v_x_dz", &MapValues::d_v_x_dz},
-    {"d_v_z_dx", &MapValues::d_v_z_dx},
-    {"d_v_z_dz", &MapValues::d_v_z_dz},
-    {"D_xx", &MapValues::d_v_x_dx},
-    {"D_zz", &MapValues::d_v_z_dz},
-    {"D_xz", &MapValues::D_xz},
-    {"dilation", &MapValues::dilation},
-    {"strain_rate", &MapValues::strain_rate},
-    {"half_vorticity", &MapValues::half_vorticity},
-    {"sigma_xx", &MapValues::sigma_xx},
-    {"sigma_zz", &MapValues::sigma_zz},
-    {"sigma_xz", &MapValues::sigma_xz},
-    {"sigma_zx", &MapValues::sigma_zx},
-    {"sigma_xx_kinetic", &MapValues::sigma_xx_kinetic},
-    {"sigma_zz_kinetic", &MapValues::sigma_zz_kinetic},
-    {"sigma_xz_kinetic", &MapValues::sigma_xz_kinetic},
-    {"p", &MapValues::p},
-    {"tau", &MapValues::tau},
-    {"I", &MapValues::I},
-    {"mu", &MapValues::mu},
-    {"k", &MapValues::k},
-    {"axis_angle_deg", &MapValues::axis_angle_deg},
-    {"fabric_xx", &MapValues::fabric_xx},
-    {"fabric_zz", &MapValues::fabric_zz},
-    {"fabric_xz", &MapValues::fabric_xz},
-    {"wall_x", &MapValues::wall_x},
-    {"wall_z", &MapValues::wall_z},
-    {"residual_x", &MapValues::residual_x},
-    {"residual_z", &MapValues::residual_z},
-    {"residual_x_without_kinetic", &MapValues::residual_x_contact},
-    {"residual_z_without_kinetic", &MapValues::residual_z_contact},
-    {"inertia_x", &MapValues::inertia_x},
-    {"inertia_z", &MapValues::inertia_z},
-    {"number_density", &MapValues::number_density},
-    {"density", &MapValues::density, &Known::densities},
-    {"displacement_v_x", &MapValues::moved_v_x, &Known::pairs},
-    {"displacement_v_z", &MapValues::moved_v_z, &Known::pairs},
-    {"displacement_d_v_x_dx", &MapValues::moved_d_v_x_dx, &Known::pairs},
-    {"displacement_d_v_x_dz", &MapValues::moved_d_v_x_dz, &Known::pairs},
-    {"displacement_d_v_z_dx", &MapValues::moved_d_v_z_dx, &Known::pairs},
-    {"displacement_d_v_z_dz", &MapValues::moved_d_v_z_dz, &Known::pairs},
-    {"displacement_D_xx", &MapValues::moved_d_v_x_dx, &Known::pairs},
-    {"displacement_D_zz", &MapValues::moved_d_v_z_dz, &Known::pairs},
-    {"displacement_D_xz", &MapValues::moved_D_xz, &Known::pairs},
-    {"displacement_dilation", &MapValues::moved_dilation, &Known::pairs},
-    {"displacement_strain_rate", &MapValues::moved_strain_rate, &Known::pairs},
-    {"displacement_half_vorticity", &MapValues::moved_half_vorticity, &Known::pairs},
-    {"displacement_I", &MapValues::moved_I, &Known::pairs},
-    {"displacement_axis_angle_deg", &MapValues::moved_axis_angle_deg, &Known::pairs}};
+struct Row {
+  const char* name;
+  double MapValues::*value;
+  double Known::*needs = nullptr;
+};
+constexpr Row quantities[] = {{"nu", &MapValues::nu},
+                              {"v_x", &MapValues::v_x},
+                              {"v_z", &MapValues::v_z},
+                              {"omega", &MapValues::omega, &Known::spin},
+                              {"d_v_x_dx", &MapValues::d_v_x_dx},
+                              {"d_v_x_dz", &MapValues::d_v_x_dz},
+                              {"d_v_z_dx", &MapValues::d_v_z_dx},
+                              {"d_v_z_dz", &MapValues::d_v_z_dz},
+                              {"D_xx", &MapValues::d_v_x_dx},
+                              {"D_zz", &MapValues::d_v_z_dz},
+                              {"D_xz", &MapValues::D_xz},
+                              {"dilation", &MapValues::dilation},
+                              {"strain_rate", &MapValues::strain_rate},
+                              {"half_vorticity", &MapValues::half_vorticity},
+                              {"sigma_xx", &MapValues::sigma_xx},
+                              {"sigma_zz", &MapValues::sigma_zz},
+                              {"sigma_xz", &MapValues::sigma_xz},
+                              {"sigma_zx", &MapValues::sigma_zx},
+                              {"sigma_xx_kinetic", &MapValues::sigma_xx_kinetic},
+                              {"sigma_zz_kinetic", &MapValues::sigma_zz_kinetic},
+                              {"sigma_xz_kinetic", &MapValues::sigma_xz_kinetic},
+                              {"p", &MapValues::p},
+                              {"tau", &MapValues::tau},
+                              {"I", &MapValues::I},
+                              {"mu", &MapValues::mu},
+                              {"k", &MapValues::k},
+                              {"axis_angle_deg", &MapValues::axis_angle_deg},
+                              {"coordination", &MapValues::coordination},
+                              {"fabric_xx", &MapValues::fabric_xx},
+                              {"fabric_zz", &MapValues::fabric_zz},
+                              {"fabric_xz", &MapValues::fabric_xz},
+                              {"wall_x", &MapValues::wall_x},
+                              {"wall_z", &MapValues::wall_z},
+                              {"residual_x", &MapValues::residual_x},
+                              {"residual_z", &MapValues::residual_z},
+                              {"residual_x_without_kinetic", &MapValues::residual_x_contact},
+                              {"residual_z_without_kinetic", &MapValues::residual_z_contact},
+                              {"inertia_x", &MapValues::inertia_x},
+                              {"inertia_z", &MapValues::inertia_z},
+                              {"number_density", &MapValues::number_density},
+                              {"density", &MapValues::density, &Known::densities}};
 
-/// Derivative of a quotient of sums, each part by the kernel's own derivative.
-double slope_of(double slope, double mean, double slope_of_weight, double weight) {
-  return (slope - mean * slope_of_weight) / weight;
-}
+/// Those that displacements tell of too.
+constexpr double MapValues::*of_motion[] = {&MapValues::v_x,         &MapValues::v_z,
+                                            &MapValues::d_v_x_dx,    &MapValues::d_v_x_dz,
+                                            &MapValues::d_v_z_dx,    &MapValues::d_v_z_dz,
+                                            &MapValues::D_xz,        &MapValues::dilation,
+                                            &MapValues::strain_rate, &MapValues::half_vorticity,
+                                            &MapValues::I,           &MapValues::axis_angle_deg};
 
-void set_velocity(const MapNode& m, MapValues& f) {
-  const double mass = m.motion.weight;
-  f.v_x = m.momentum[0] / mass;
-  f.v_z = m.momentum[1] / mass;
-  f.d_v_x_dx = slope_of(m.slope_x[1], f.v_x, m.slope_x[0], mass);
-  f.d_v_x_dz = slope_of(m.slope_z[1], f.v_x, m.slope_z[0], mass);
-  f.d_v_z_dx = slope_of(m.slope_x[2], f.v_z, m.slope_x[0], mass);
-  f.d_v_z_dz = slope_of(m.slope_z[2], f.v_z, m.slope_z[0], mass);
+PlaneMatrix gradient_of(const MapValues& f) { return {f.d_v_x_dx, f.d_v_x_dz, f.d_v_z_dx, f.d_v_z_dz}; }
+
+template <std::size_t N>
+void set_velocity(const KernelSums<N>& sums, MapValues& f) {
+  f.v_x = sums.mean(1);
+  f.v_z = sums.mean(2);
+  f.d_v_x_dx = sums.slope(1, sums.slope_x);
+  f.d_v_x_dz = sums.slope(1, sums.slope_z);
+  f.d_v_z_dx = sums.slope(2, sums.slope_x);
+  f.d_v_z_dz = sums.slope(2, sums.slope_z);
   f.D_xz = (f.d_v_x_dz + f.d_v_z_dx) / 2;
   f.dilation = f.d_v_x_dx + f.d_v_z_dz;
 }
@@ -98,8 +95,7 @@ void set_fields(const MapNode& m, double inside, MapValues& f) {
   f.sigma_zz = pressure.zz;
   f.sigma_xz = -pressure.xz;
   f.sigma_zx = -pressure.zx;
-  static_cast<PlaneInvariants&>(f) =
-      plane_invariants(pressure, {f.d_v_x_dx, f.d_v_x_dz, f.d_v_z_dx, f.d_v_z_dz});
+  static_cast<PlaneInvariants&>(f) = plane_invariants(pressure, gradient_of(f));
   f.fabric_xx = fields.fabric[0][0];
   f.fabric_xz = fields.fabric[0][1];
   f.fabric_zz = fields.fabric[1][1];
@@ -115,10 +111,11 @@ void set_balance(const MapNode& m, double gravity_x, double gravity_z, MapValues
   const double contact_x = m.contact_force[0] - m.force[0], contact_z = m.contact_force[1] - m.force[1];
   const double u_x = m.motion.mean(0), u_z = m.motion.mean(1);
   // div(nu U U) of the mean velocity U: what is left of the flux is the kinetic stress.
-  const double divergence = m.slope_x[3] + m.slope_z[4];
+  const KernelSums<5>& c = m.carried;
+  const double divergence = c.slope_x[3] + c.slope_z[4];
+  const auto along = [&](std::size_t moment) { return u_x * c.slope_x[moment] + u_z * c.slope_z[moment]; };
   const auto mean_flux = [&](double u, std::size_t moment) {
-    const double along = u_x * m.slope_x[moment] + u_z * m.slope_z[moment];
-    return u * divergence + along - u * (u_x * m.slope_x[0] + u_z * m.slope_z[0]);
+    return u * divergence + along(moment) - u * along(0);
   };
   const double inertia_x = mean_flux(u_x, 3), inertia_z = mean_flux(u_z, 4);
   const double load_x = mass * gravity_x + m.wall_force[0], load_z = mass * gravity_z + m.wall_force[1];
@@ -142,10 +139,14 @@ void forget_contacts(MapNode& m) {
 }  // namespace
 
 std::vector<MapQuantity> known_fields(const MapSums::Snapshots& all) {
-  std::vector<MapQuantity> known;
-  for (const MapQuantity& field : quantities)
-    if (!field.needs || all.*field.needs > 0)
-      known.push_back({field.name, field.value, field.needs, drumlin::period_of(field.name)});
+  std::vector<MapQuantity> known, displaced;
+  for (const auto& [name, value, needs] : quantities) {
+    const double period = drumlin::period_of(name);
+    if (!needs || all.*needs > 0) known.push_back({name, value, needs, period});
+    if (all.pairs > 0 && std::ranges::find(of_motion, value) != std::end(of_motion))
+      displaced.push_back({std::string("displacement_") + name, value, &Known::pairs, period, true});
+  }
+  known.insert(known.end(), displaced.begin(), displaced.end());
   for (const auto& [name, value] : shared_fields) known.push_back({name, value});
   return known;
 }
@@ -160,33 +161,18 @@ MapValues values_at(const MapNode& sums, const MapSums::Snapshots& snapshots, do
   f.nu = m.solid / inside;
   if (f.nu < least_map_nu) return f;
   f.density = m.motion.weight / inside;
-  set_velocity(m, f);
+  set_velocity(m.carried, f);
   set_fields(m, inside, f);
   set_balance(m, share * snapshots.gravity_x, share * snapshots.gravity_z, f);
   return f;
 }
 
-void set_motion(const MapNode& sums, const PlaneMatrix& pressure, MapValues& f) {
-  const auto& [sum, slope_x, slope_z] = std::tie(sums.moved, sums.moved_slope_x, sums.moved_slope_z);
-  const double weight = sum[0];
-  if (!(weight > 0)) return;
-  f.moved_v_x = sum[1] / weight;
-  f.moved_v_z = sum[2] / weight;
-  const PlaneMatrix gradient{slope_of(slope_x[1], f.moved_v_x, slope_x[0], weight),
-                             slope_of(slope_z[1], f.moved_v_x, slope_z[0], weight),
-                             slope_of(slope_x[2], f.moved_v_z, slope_x[0], weight),
-                             slope_of(slope_z[2], f.moved_v_z, slope_z[0], weight)};
-  f.moved_d_v_x_dx = gradient.xx;
-  f.moved_d_v_x_dz = gradient.xz;
-  f.moved_d_v_z_dx = gradient.zx;
-  f.moved_d_v_z_dz = gradient.zz;
-  f.moved_D_xz = (gradient.xz + gradient.zx) / 2;
-  f.moved_dilation = gradient.xx + gradient.zz;
-  const PlaneInvariants invariants = plane_invariants(pressure, gradient);
-  f.moved_strain_rate = invariants.strain_rate;
-  f.moved_half_vorticity = invariants.half_vorticity;
-  f.moved_I = invariants.I;
-  f.moved_axis_angle_deg = invariants.axis_angle_deg;
+MapValues displaced_values(const MapNode& sums, const PlaneMatrix& pressure) {
+  MapValues f;
+  if (!(sums.displaced.value[0] > 0)) return f;
+  set_velocity(sums.displaced, f);
+  static_cast<PlaneInvariants&>(f) = plane_invariants(pressure, gradient_of(f));
+  return f;
 }
 
 }  // namespace drumlin::particles

@@ -1,6 +1,7 @@
 #pragma once
 // The fields of a map at one node, from the sums there (docs/theory/coarse-graining.md defines each).
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "coupling/core/results/plane_invariants.hpp"
@@ -30,27 +31,24 @@ struct MapValues : PlaneInvariants, SharedFields {
   double residual_x = none, residual_z = none, residual_x_contact = none, residual_z_contact = none;
   double inertia_x = none, inertia_z = none;
   double density = none;
-  /// The same from displacements.
-  double moved_v_x = none, moved_v_z = none, moved_d_v_x_dx = none, moved_d_v_x_dz = none,
-         moved_d_v_z_dx = none, moved_d_v_z_dz = none, moved_D_xz = none, moved_dilation = none,
-         moved_strain_rate = none, moved_half_vorticity = none, moved_I = none, moved_axis_angle_deg = none;
 };
 
 struct MapQuantity {
-  const char* name;
+  std::string name;
   double MapValues::*value;
   double MapSums::Snapshots::*needs = nullptr;  ///< of the snapshots; absent where it is 0
   double period = 0;                            ///< of its values, 0: none; known_fields() sets it
+  bool displaced = false;                       ///< of the motion by displacements
 };
 /// The fields that the snapshots tell of.
 std::vector<MapQuantity> known_fields(const MapSums::Snapshots& all);
 
 /// `inside`: share of the kernel within the container. NaN, nu and number_density apart, where nu <
-/// least_map_nu; without displacements.
+/// least_map_nu.
 MapValues values_at(const MapNode& sums, const MapSums::Snapshots& snapshots, double inside);
 
-/// The fields of displacements; `pressure` stands in I and in the angle of the axes. They stay NaN without a
-/// displacement.
-void set_motion(const MapNode& sums, const PlaneMatrix& pressure, MapValues& values);
+/// What motion there is by displacements, alone; `pressure` stands in I and in the angle of the axes. NaN
+/// without a displacement.
+MapValues displaced_values(const MapNode& sums, const PlaneMatrix& pressure);
 
 }  // namespace drumlin::particles

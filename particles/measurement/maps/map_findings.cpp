@@ -44,22 +44,18 @@ double noise_of(const FindingMap& map, Value ci99, const Nodes& nodes, std::size
 
 /// Root mean square of the means over squares of side `side`.
 double rms_of_blocks(const FindingMap& map, Value value, const Nodes& nodes, double side) {
-  struct Block {
-    double sum = 0, count = 0;
-  };
   const MapGrid& grid = map.grid;
-  std::map<std::pair<double, double>, Block> blocks;
+  std::map<std::pair<double, double>, SeriesSum> blocks;
   for (std::size_t node : nodes) {
-    Block& block = blocks[{std::floor(grid.x_of(node % grid.columns) / side),
-                           std::floor(grid.z_of(node / grid.columns) / side)}];
-    block.sum += map.nodes[node].*value;
-    block.count += 1;
+    const std::pair place(std::floor(grid.x_of(node % grid.columns) / side),
+                          std::floor(grid.z_of(node / grid.columns) / side));
+    add_times(1, SeriesSum{map.nodes[node].*value, 1}, blocks[place]);
   }
   const double whole = side * side / (grid.spacing_x * grid.spacing_z);
   double squares = 0, count = 0;
   for (const auto& [place, block] : blocks) {
     if (block.count < 0.75 * whole) continue;
-    squares += std::pow(block.sum / block.count, 2);
+    squares += std::pow(block.mean(), 2);
     count += 1;
   }
   return count > 0 ? std::sqrt(squares / count) : std::numeric_limits<double>::quiet_NaN();

@@ -14,15 +14,14 @@ void MapNode::add_centre(const KernelWeight& at, const GrainSample<2>& grain) {
   const auto [phi, phi_x, phi_z] = at;
   const auto [u_x, u_z] = grain.laboratory_velocity;
   const double area = grain.area(), mass = grain.density * area;
-  const std::array<double, 5> moments{mass, mass * grain.velocity[0], mass * grain.velocity[1], mass * u_x,
-                                      mass * u_z};
+  const double m_x = mass * u_x, m_z = mass * u_z;
   Moments::add_centre(phi, grain);
   solid += phi * area;
   motion.add(phi * mass, grain.laboratory_velocity);
-  for (int a = 0; a < 2; ++a) momentum[a] += phi * moments[a + 1], force[a] += phi * grain.force[a];
-  for (int k = 0; k < 5; ++k) slope_x[k] += phi_x * moments[k], slope_z[k] += phi_z * moments[k];
-  flux_divergence[0] += phi_x * (moments[3] * u_x) + phi_z * (moments[3] * u_z);
-  flux_divergence[1] += phi_x * (moments[3] * u_z) + phi_z * (moments[4] * u_z);
+  carried.add(at, {mass, mass * grain.velocity[0], mass * grain.velocity[1], m_x, m_z});
+  for (int a = 0; a < 2; ++a) force[a] += phi * grain.force[a];
+  flux_divergence[0] += phi_x * (m_x * u_x) + phi_z * (m_x * u_z);
+  flux_divergence[1] += phi_x * (m_x * u_z) + phi_z * (m_z * u_z);
 }
 
 CoarseGraining coarse_graining(const FlowFrame& frame, double x_from, double x_to, double z_from, double z_to,
@@ -76,13 +75,10 @@ void add_snapshot(const CoarseGraining& graining, const Snapshot& snapshot, cons
     add_grain(grain, binning, sums.nodes);
   }
   MapSums::Snapshots& known = sums.snapshots;
-  known.count += 1;
+  known.add(in_frame);
   const auto [gravity_x, gravity_z] = frame.turned(snapshot.gravity_x, snapshot.gravity_z);
   known.gravity_x += gravity_x;
   known.gravity_z += gravity_z;
-  known.spin += in_frame.spin.empty() ? 0 : 1;
-  known.contacts += in_frame.contacts_known ? 1 : 0;
-  known.densities += in_frame.density.empty() ? 0 : 1;
 }
 
 }  // namespace drumlin::particles

@@ -10,21 +10,40 @@
 
 namespace drumlin::particles {
 
+/// Sums of phi times some moments at their points, and their slopes; phi is the kernel around the node. The
+/// first moment is the weight of the means.
+template <std::size_t N>
+struct KernelSums {
+  std::array<double, N> value{}, slope_x{}, slope_z{};
+
+  void add(const KernelWeight& at, const std::array<double, N>& moments) {
+    for (std::size_t k = 0; k < N; ++k) {
+      value[k] += at.phi * moments[k];
+      slope_x[k] += at.phi_x * moments[k], slope_z[k] += at.phi_z * moments[k];
+    }
+  }
+  double mean(std::size_t k) const { return value[k] / value[0]; }
+  /// Slope of the mean, each sum by the kernel's own slope.
+  double slope(std::size_t k, const std::array<double, N>& slopes) const {
+    return (slopes[k] - mean(k) * slopes[0]) / value[0];
+  }
+};
+
 /// Sums at one node; phi is the kernel around it, m the mass. v: velocity relative to the drum over the
 /// stored window; u, that of `motion`: instantaneous, in the laboratory. Components in the flow frame.
 struct MapNode : Moments<2> {
-  /// sum of phi at the grains' centres times m v; times the force of all contacts on the grain.
-  Vector<2> momentum{}, force{};
-  /// d/dx and d/dz of the sums of m, m v_x, m v_z, m u_x, m u_z.
-  std::array<double, 5> slope_x{}, slope_z{};
+  /// At the grains' centres m, m v_x, m v_z, m u_x, m u_z.
+  KernelSums<5> carried;
+  /// sum of phi at the grains' centres times the force of all contacts on the grain.
+  Vector<2> force{};
   /// d/dx m u_x u_x + d/dz m u_x u_z, and the same for z.
   Vector<2> flux_divergence{};
   /// sum of phi at the contacts times the forces of both sides of each; the same of contacts with walls
   /// alone.
   Vector<2> contact_force{}, wall_force{};
-  /// sum of phi around the middle of a displacement d, of a grain relative to the drum from one snapshot to
-  /// the next after the time t, times m t, m d_x, m d_z; d/dx and d/dz of it.
-  std::array<double, 3> moved{}, moved_slope_x{}, moved_slope_z{};
+  /// At the middle of a displacement d, of a grain relative to the drum from one snapshot to the next after
+  /// the time t, m t, m d_x, m d_z.
+  KernelSums<3> displaced;
 
   void add_centre(const KernelWeight& at, const GrainSample<2>& grain);
   /// The fabric takes half of each side, so that a contact with a wall counts half.
@@ -40,10 +59,9 @@ struct MapNode : Moments<2> {
 /// Sums over some snapshots.
 struct MapSums {
   NodeTiles<MapNode> nodes;
-  /// Numbers of snapshots and of those that know spins, contacts and densities of their own; gravity in the
-  /// flow frame; pairs of snapshots that displacements were taken from, and the time between them.
-  struct Snapshots {
-    double count = 0, spin = 0, contacts = 0, densities = 0;
+  /// Gravity in the flow frame; pairs of snapshots that displacements were taken from, and the time between
+  /// them.
+  struct Snapshots : KnownSnapshots {
     double gravity_x = 0, gravity_z = 0;
     double pairs = 0, time = 0;
   } snapshots;
