@@ -277,9 +277,9 @@ TEST(Quantities, HaveWordsInTheTableWhateverIsMeasured) {
 }
 
 TEST(Temperature, OverThePressureOfAGasIsOneOverNuAndUnderAWeightItsShare) {
-  const FieldMap gas = maps_of(lattice_graining(), {square_lattice([](double x, double z) {
-                                 return std::array{0.3 * x, z};
-                               })});
+  const FieldMap gas = collected_maps(lattice_graining(), {square_lattice([](double x, double z) {
+                                        return std::array{0.3 * x, z};
+                                      })});
   each_inner_node(gas, [](double, double, auto value) {
     EXPECT_NEAR(value("temperature_over_p"), 1 / value("nu"), 1e-12);
   });
