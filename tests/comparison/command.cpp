@@ -38,10 +38,10 @@ TEST(CompareCommand, LeavesAReportWithBandsAndFloorAndWhatIsMissingIsNull) {
   const TemporaryFolder folder;
   Json reduced = example_measured();  // spares the figures of costs
   reduced["reduced"] = true;
-  ProfileSet particles = example_profiles(), continuum = continuum_profiles(), other = example_profiles();
+  ProfileSet particles = example_profiles(), continuum = scaled(continuum_profiles(), "v_x", 1.1),
+             other = scaled(example_profiles(), "v_x", 1.02);
   for (ProfileSet* set : {&particles, &continuum, &other}) set->header.reduced = true;
-  for (double& value : column_of(continuum, "v_x").value) value *= 1.1;
-  for (double& value : column_of(other, "v_x").value) value *= 1.02;
+
   auto& speed = column_of(continuum, "v_x");
   for (const double value : speed.value) speed.ci99.push_back(0.2 * value);
   Json flow = example_flow();
@@ -88,8 +88,7 @@ Json shear_flow() {
 
 TEST(CompareCommand, ComparesLayersOfAnyGeometryThatBothSidesShare) {
   const TemporaryFolder folder;
-  ProfileSet continuum = sheared_continuum();
-  for (double& value : column_of(continuum, "v_x").value) value *= 1.2;
+  ProfileSet continuum = scaled(sheared_continuum(), "v_x", 1.2);
   // A flow between plates has neither a drum nor a slope.
   for (const char* key : {"theta_deg", "rotation", "drum_radius"}) erase_entry(continuum.header, key);
   CompareOptions options = options_for(folder, measured_shear(folder, "run"),

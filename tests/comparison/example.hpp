@@ -79,5 +79,14 @@ inline ProfileColumn& column_of(ProfileSet& set, const std::string& name) {
     if (column.name == name) return column;
   throw std::runtime_error(name);
 }
+/// With the values of a column multiplied.
+inline ProfileSet scaled(ProfileSet set, const std::string& column, double factor) {
+  for (double& value : column_of(set, column).value) value *= factor;
+  return set;
+}
+inline coupling::ComparedSide scaled(coupling::ComparedSide side, const std::string& column, double factor) {
+  side.profiles = scaled(std::move(side.profiles), column, factor);
+  return side;
+}
 
 }  // namespace drumlin::testing

@@ -66,8 +66,7 @@ TEST(ProfileErrors, OfAProfileAgainstItselfAreZero) {
 }
 
 TEST(ProfileErrors, OfAFactorAreRelativeToTheZonesOwnNorm) {
-  auto continuum = continuum_profiles();
-  for (auto& value : column_of(continuum, "v_x").value) value *= 1.1;
+  const auto continuum = scaled(continuum_profiles(), "v_x", 1.1);
   const auto field = overlay("v_x", example_profiles(), continuum);
   // The speeds of the two zones differ; the relative error does not know.
   EXPECT_NEAR(errors_in(field, zone("flowing")).rel_l2, 0.1, 1e-12);
@@ -87,8 +86,7 @@ TEST(ProfileErrors, OfAnOffsetAreTheOffset) {
 }
 
 TEST(ProfileErrors, OfTheShearRateAreInDecades) {
-  auto continuum = continuum_profiles();
-  for (auto& value : column_of(continuum, "shear_rate").value) value *= 10;
+  const auto continuum = scaled(continuum_profiles(), "shear_rate", 10);
   const auto errors = errors_in(overlay("log10_shear_rate", example_profiles(), continuum), zone("static"));
   EXPECT_NEAR(errors.rms, 1, 1e-12);
   EXPECT_NEAR(errors.max, 1, 1e-12);

@@ -48,8 +48,7 @@ TEST(Comparison, ScalarTargetsTurnAtTheirLimits) {
 TEST(Comparison, FieldTargetsTurnAtTheirLimits) {
   const auto outcome = [](const std::string& quantity, const std::string& zone, const std::string& column,
                           double factor) {
-    auto continuum = continuum_side();
-    for (auto& value : column_of(continuum.profiles, column).value) value *= factor;
+    const auto continuum = scaled(continuum_side(), column, factor);
     return target(compare(example_side(), continuum), quantity, zone).outcome;
   };
   const auto turns_at = [&](const std::string& quantity, const std::string& zone, double limit) {
@@ -97,16 +96,16 @@ TEST(Comparison, ALimitNarrowerThanTheParticlesIntervalIsJudgedByTheNoiseFloor) 
 
 TEST(Comparison, FieldsOfNoisyParticlesAreJudgedByTheirNoiseFloor) {
   ComparedSide particles = example_side();
-  auto continuum = continuum_side();
   auto& noisy = column_of(particles.profiles, "sigma_zz");
   for (std::size_t l = 0; l < noisy.ci99.size(); ++l) noisy.ci99[l] = 0.12 * std::abs(noisy.value[l]);
-  for (double& value : column_of(continuum.profiles, "sigma_zz").value) value *= 1.08;
-  const Target found = target(compare(particles, continuum), "sigma_zz", "all");
+  const auto found_at = [&](double factor) {
+    return target(compare(particles, scaled(continuum_side(), "sigma_zz", factor)), "sigma_zz", "all");
+  };
+  const Target found = found_at(1.08);
   EXPECT_EQ(found.outcome, Outcome::met);
   EXPECT_EQ(found.judged_by, JudgedBy::noise_floor);
   EXPECT_NEAR(found.noise_floor, 0.12, 1e-12);
-  for (double& value : column_of(continuum.profiles, "sigma_zz").value) value *= 1.13 / 1.08;
-  EXPECT_EQ(target(compare(particles, continuum), "sigma_zz", "all").outcome, Outcome::missed);
+  EXPECT_EQ(found_at(1.13).outcome, Outcome::missed);
 }
 
 TEST(Comparison, LayersThatTheContinuumLeavesUndefinedMissTheTarget) {

@@ -192,13 +192,6 @@ TEST(KeyTable, RefusesValuesOutsideTheirRange) {
     EXPECT_NE(only_problem({wrong}), "") << wrong;
 }
 
-TEST(KeyTable, RefusesValuesOfAnotherType) {
-  for (const char* wrong :
-       {"title=1", "open=\"yes\"", "visitors=1.0", "height_m=\"2\"", "soil=2", "rows=1", "rows=[\"a\"]",
-        "sown=1", "water=true", "beds.0=1", "beds=1", "beds=[]", "beds.0.shape=1", "rain=[]"})
-    EXPECT_NE(only_problem({wrong}), "") << wrong;
-}
-
 TEST(KeyTable, WantsTheRightLengthOfAnArray) {
   const std::string square = "beds.0={name=\"a\", shape=\"square\", side_m=1, corner_m=[1,2,3]}";
   expect_has(only_problem({square}), "has 3 entries (allowed: array of 2 numbers in m, any finite)");
