@@ -12,7 +12,7 @@ namespace drumlin {
 using namespace continuum;
 namespace {
 
-using testing_given_flow::GivenFlow;
+using testing_given_flow::errors_on_three_meshes, testing_given_flow::GivenFlow, testing_given_flow::ring;
 using testing_given_flow::TwoObservers;
 using Function = std::function<double(Vec2)>;
 
@@ -35,16 +35,13 @@ TEST(CarriedField, ForgetsAlongItsWayExponentially) {
   const double rate = 0.7;
   const Function target = [](Vec2 x) { return x.x > 0 ? 1.0 : 0.0; };
   const Function exact = [&](Vec2 x) { return x.x > 0 ? 1 - std::exp(-rate * x.x) : 0; };
-  std::vector<double> errors;
-  for (const int refinements : {0, 1, 2}) {
-    const GivenFlow flow(BoxDomain{.width = 8, .height = 2, .cells_x = 8, .cells_z = 2}, refinements,
-                         [](Vec2) {
-                           return Vec2{1, 0};
-                         });
+  const BoxDomain box{.width = 8, .height = 2, .cells_x = 8, .cells_z = 2};
+  const auto along = [](Vec2) { return Vec2{1, 0}; };
+  const auto errors = errors_on_three_meshes(box, along, [&](const GivenFlow& flow) {
     const Carried found = carried(flow, everywhere(rate), target);
-    errors.push_back(flow.error(found.values, exact));
     EXPECT_EQ(found.overshoot, 0);
-  }
+    return flow.error(found.values, exact);
+  });
   expect_orders(errors, {1.8, 1.9});
   EXPECT_LT(errors[2], 1e-3);
 }
@@ -55,15 +52,12 @@ TEST(CarriedField, LagsBehindItsTargetOnClosedWays) {
   for (const double rate : {1.0, 0.05}) {
     const double A = rate * rate / (rate * rate + Omega * Omega),
                  B = -Omega * rate / (rate * rate + Omega * Omega);
-    std::vector<double> errors;
-    for (const int refinements : {0, 1, 2}) {
-      const GivenFlow flow(AnnulusDomain{.inner_radius = 2, .layers = {1, 1}, .cells_around = 16},
-                           refinements, [=](Vec2 x) { return rigid_rotation(Omega, 0, x); });
+    const auto turning = [=](Vec2 x) { return rigid_rotation(Omega, 0, x); };
+    const auto errors = errors_on_three_meshes(ring, turning, [&](const GivenFlow& flow) {
       const Carried found =
           carried(flow, everywhere(rate), [](Vec2 x) { return x.x / std::hypot(x.x, x.z); });
-      errors.push_back(
-          flow.error(found.values, [=](Vec2 x) { return (A * x.x + B * x.z) / std::hypot(x.x, x.z); }));
-    }
+      return flow.error(found.values, [=](Vec2 x) { return (A * x.x + B * x.z) / std::hypot(x.x, x.z); });
+    });
     expect_orders(errors, {1.7, 1.8});
     EXPECT_LT(errors[2], 4e-3) << rate;
   }
@@ -72,14 +66,13 @@ TEST(CarriedField, LagsBehindItsTargetOnClosedWays) {
 TEST(CarriedField, IsTheMeanOverTheWayWhereHardlyAnythingRelaxes) {
   // As in the rigid part of a drum: ten thousand turns to forget. The targets are r plus what has no mean.
   const double Omega = 0.5, rate = 1e-4 * Omega / (2 * std::numbers::pi);
-  std::vector<double> errors;
-  for (const int refinements : {0, 1, 2}) {
-    const GivenFlow flow(AnnulusDomain{.inner_radius = 2, .layers = {0.5, 0.5, 0.5, 0.5}, .cells_around = 32},
-                         refinements, [=](Vec2 x) { return rigid_rotation(Omega, 0, x); });
+  const AnnulusDomain fine{.inner_radius = 2, .layers = {0.5, 0.5, 0.5, 0.5}, .cells_around = 32};
+  const auto turning = [=](Vec2 x) { return rigid_rotation(Omega, 0, x); };
+  const auto errors = errors_on_three_meshes(fine, turning, [&](const GivenFlow& flow) {
     const Carried found = carried(flow, everywhere(rate),
                                   [](Vec2 x) { return std::hypot(x.x, x.z) + x.x / std::hypot(x.x, x.z); });
-    errors.push_back(flow.error(found.values, [](Vec2 x) { return std::hypot(x.x, x.z); }));
-  }
+    return flow.error(found.values, [](Vec2 x) { return std::hypot(x.x, x.z); });
+  });
   // What each turn mixes across the ways, of third order, meets next to no relaxation: 1 % on the last mesh.
   expect_orders(errors, {1.4, 1.4});
   EXPECT_LT(errors[2], 0.015);

@@ -12,7 +12,7 @@ namespace drumlin::fluidity_test {
 using namespace continuum;
 namespace {
 
-using testing_given_flow::GivenFlow;
+using testing_given_flow::errors_on_three_meshes, testing_given_flow::GivenFlow;
 using Function = std::function<double(Vec2)>;
 
 std::vector<double> factor(const GivenFlow& flow, double length, const Function& local) {
@@ -32,11 +32,10 @@ TEST(NonlocalFluidity, OfAWaveIsTheWaveDamped) {
   const Function exact = [=](Vec2 x) {
     return (1 + 0.8 * wave(x)) / (1 + 0.8 * wave(x) / (1 + 2 * length * length * k * k));
   };
-  std::vector<double> errors;
-  for (const int refinements : {0, 1, 2}) {
-    const GivenFlow flow(BoxDomain{.width = 4, .height = 4, .cells_x = 8, .cells_z = 8}, refinements, rest);
-    errors.push_back(flow.error(factor(flow, length, [&](Vec2 x) { return 1 + 0.8 * wave(x); }), exact));
-  }
+  const BoxDomain box{.width = 4, .height = 4, .cells_x = 8, .cells_z = 8};
+  const auto errors = errors_on_three_meshes(box, rest, [&](const GivenFlow& flow) {
+    return flow.error(factor(flow, length, [&](Vec2 x) { return 1 + 0.8 * wave(x); }), exact);
+  });
   expect_orders(errors, {1.8, 1.8});
   EXPECT_LT(errors[2], 3e-3);
 }

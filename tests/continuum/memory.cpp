@@ -16,7 +16,7 @@ using namespace continuum;
 namespace {
 
 using namespace testing_boxes;
-using testing_given_flow::GivenFlow;
+using testing_given_flow::errors_on_three_meshes, testing_given_flow::GivenFlow, testing_given_flow::ring;
 using testing_given_flow::TwoObservers;
 using Complex = std::complex<double>;
 using Tensor = std::function<Complex(Vec2)>;
@@ -51,14 +51,11 @@ TEST(CarriedAxes, ConvergeWithSecondOrderInAFlowThatShearsAndTurns) {
         along_z(0, -0.3 * std::sin(x.z + 0.5 * x.x));
     return A(x) + (u.x * along_x + u.z * along_z + Complex(0, 2 * W) * A(x)) / rate;
   };
-  std::vector<double> errors;
-  for (const int refinements : {0, 1, 2}) {
-    const GivenFlow flow(AnnulusDomain{.inner_radius = 2, .layers = {1, 1}, .cells_around = 16}, refinements,
-                         velocity);
+  const auto errors = errors_on_three_meshes(ring, velocity, [&](const GivenFlow& flow) {
     const Found found = carried(flow, rate, target);
-    errors.push_back(std::hypot(flow.error(found.xx, [&](Vec2 x) { return A(x).real(); }),
-                                flow.error(found.xz, [&](Vec2 x) { return A(x).imag(); })));
-  }
+    return std::hypot(flow.error(found.xx, [&](Vec2 x) { return A(x).real(); }),
+                      flow.error(found.xz, [&](Vec2 x) { return A(x).imag(); }));
+  });
   expect_orders(errors, {1.7, 1.8});
   EXPECT_LT(errors[2], 4e-3);
 }
@@ -155,9 +152,7 @@ TEST(MemoryOfTheAmount, WithoutCoefficientsIsNone) {
 TEST(MemoryOfTheAmount, IsNothingWhereIIsTheSameEverywhere) {
   // A rigid rotation without pressure: I stands at one end of the table everywhere, and what was carried is
   // what there is.
-  const GivenFlow flow(AnnulusDomain{.inner_radius = 2, .layers = {1, 1}, .cells_around = 16}, 0, [](Vec2 x) {
-    return Vec2{0.3 * x.z, -0.3 * x.x};
-  });
+  const GivenFlow flow(ring, 0, [](Vec2 x) { return Vec2{0.3 * x.z, -0.3 * x.x}; });
   FlowProblem problem = flow.problem;
   problem.memory.emplace(law);
   problem.memory->law.amount = swelling;
