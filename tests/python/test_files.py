@@ -97,3 +97,14 @@ def test_a_command_raises_what_it_fails_at(run, tmp_path):
     with pytest.raises(drumlin.InputError):
         drumlin.compare(run.path, tmp_path / "none", tmp_path / "OUT")
     assert drumlin.command("--version").split()[1] == drumlin.__version__
+
+
+def test_every_option_of_a_command_is_an_argument(run, tmp_path):
+    said = drumlin.command("history", run.path, output=tmp_path / "HISTORY", box=[-2, 2, -20, -18], sectors=8)
+    assert "4 snapshots" in said and "# box = -2 2 -20 -18\n# sectors = 8\n" in (tmp_path / "HISTORY/walls.csv").read_text()
+    settings = drumlin.measure(run.path, parts=["slices"], slices=[-1, 1.5], slice_width=3, overwrite=True)["measured.json"]["slices"]
+    assert [one["position"] for one in settings] == [-1, 1.5]
+    with pytest.raises(TypeError, match="slice_widht.*slice_width"):
+        drumlin.measure(run.path, slice_widht=3)
+    with pytest.raises(drumlin.InputError, match="slice-width"):
+        drumlin.measure(run.path, slice_width=-3)

@@ -1,6 +1,8 @@
 """The commands, for what Python does not do by itself: each is started as a process and raises what it refuses or fails at."""
 
+import functools
 import itertools
+import json
 import operator
 import os
 import pathlib
@@ -97,18 +99,40 @@ def _command(words, name=None, output=None, progress=False):
         return process.result()
 
 
-def command(*words) -> str:
-    """Runs `drumlin WORDS...` and returns what it printed, a text. Raises the error that its exit code stands for, with its text; Ctrl-C ends it and is
-    a KeyboardInterrupt here."""
-    return _command(words)
+@functools.cache
+def _table():
+    """{command: {option: what the program says of it}}, by names of Python."""
+    said = subprocess.run([program(), "--commands"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, check=True).stdout
+    return {command["name"]: {option["name"].replace("-", "_"): option for option in command["options"]} for command in json.loads(said)}
+
+
+def _words(name, *positional, **options):
+    """The words of a command for these values of its options."""
+    known, words = _table().get(name), [*name.split(), *positional]
+    if known is None:
+        raise InputError(f"no command is called {name!r} (there are {', '.join(_table())})")
+    for key, value in options.items():
+        option = known.get(key.rstrip("_"))
+        if option is None or option["is_positional"]:
+            raise TypeError(f"drumlin {name}: no option is called {key} (it has {', '.join(key for key in known if not known[key]['is_positional'])})")
+        is_one = isinstance(value, (str, os.PathLike)) or not hasattr(value, "__iter__")
+        values = list(value) if not is_one else [] if value is None or value is False else [value]
+        if option["is_list"] and not option["is_repeated"] and not option["is_of_paths"]:
+            values = [",".join(map(str, values))] if values else []
+        for number, one in enumerate(values):
+            words += ["--" + option["name"]] if number == 0 or option["is_repeated"] else []
+            words += [] if one is True else [one]
+    return words
+
+
+def command(*words, **options) -> str:
+    """Runs `drumlin WORDS...` and returns what it printed, a text. options: those of `drumlin COMMAND --help` by their long names, slice_width=10,
+    slices=[-5, 5], from_="maps". Raises the error that its exit code stands for, with its text; Ctrl-C ends it and is a KeyboardInterrupt here."""
+    return _command(_words(*words, **options) if options else words)
 
 
 def _text(word):
     return file_name(word if isinstance(word, os.PathLike) else str(word))
-
-
-def _existing(overwrite):
-    return ["--overwrite"] if overwrite else []
 
 
 def _written(value, output, kind):
@@ -139,24 +163,25 @@ def _scene_file(scene, output, form):
     return _written({"format": form} | _from_here(scene), output, "scene") if isinstance(scene, dict) else scene
 
 
-def _sets(changes, from_here):
-    return [word for change in overrides_of(_from_here(changes) if from_here else changes) for word in ("--set", change)]
+def _changes(changes, from_here):
+    return list(overrides_of(_from_here(changes) if from_here else changes))
 
 
-def run(scene, output, changes=(), threads: int = 1, overwrite: bool = False, resume: bool = False, progress: bool | None = None) -> Folder:
+def run(scene, output, changes=(), threads: int = 1, overwrite: bool = False, resume: bool = False, progress: bool | None = None, **options) -> Folder:
     """`drumlin run`: steps a scene of grains to its end, into a folder of results, which is returned.
 
     scene: a file, the name of a shipped one, a text of TOML or a dict of its keys, in their units (mm, s, ...); changes: {"solver.tolerance": 1e-3}.
     resume: goes on where a call was interrupted. Ctrl-C leaves a checkpoint. progress: shown or not; None: on a terminal alone.
+    options, here and below: the others of the command, as in drumlin.command.
     """
     output = pathlib.Path(output)
     file = _scene_file(scene, output, "drumlin-scene-1")
-    _command(["run", file, "-o", output, "--threads", threads, *_sets(changes, file is not scene), *_existing(overwrite),
-              *(["--resume"] if resume else [])], "run", output, progress)
+    _command(_words("run", file, output=output, threads=threads, set=_changes(changes, file is not scene), overwrite=overwrite, resume=resume, **options),
+             "run", output, progress)
     return read(output)
 
 
-def solve_flow(scene, law, output, changes=(), overwrite: bool = False, progress: bool | None = None) -> Folder:
+def solve_flow(scene, law, output, changes=(), overwrite: bool = False, progress: bool | None = None, **options) -> Folder:
     """`drumlin flow`: a scene of the continuum with a law (a file, or a Law) into a folder of results, which is returned.
 
     scene, changes, progress: as in run. Needs the half of Drumlin with deal.II.
@@ -164,24 +189,23 @@ def solve_flow(scene, law, output, changes=(), overwrite: bool = False, progress
     output = pathlib.Path(output)
     law = _written(law, output, "law") if hasattr(law, "write") else law
     file = _scene_file(scene, output, "drumlin-flow-scene-1")
-    _command(["flow", file, "--rheology", law, "-o", output, *_sets(changes, file is not scene), *_existing(overwrite)], "flow", output, progress)
+    _command(_words("flow", file, rheology=law, output=output, set=_changes(changes, file is not scene), overwrite=overwrite, **options), "flow", output, progress)
     return read(output)
 
 
-def measure(run_folder, overwrite: bool = False, parts=(), progress: bool | None = None) -> Folder:
+def measure(run_folder, overwrite: bool = False, parts=(), progress: bool | None = None, **options) -> Folder:
     """`drumlin measure`: averages of a run into its folder `measured`, which is returned.
 
     parts: what is measured beside the profiles (`drumlin measure --help`); all that is usual unless told. progress: as in run.
     """
     output = pathlib.Path(run_folder) / "measured"
-    _command(["measure", run_folder, *_existing(overwrite), *(["--parts", ",".join(parts)] if parts else [])], "measure", output, progress)
+    _command(_words("measure", run_folder, overwrite=overwrite, parts=parts, **options), "measure", output, progress)
     return read(output)
 
 
-def compare(run_folder, flow_folder, output, overwrite: bool = False, accept_unsteady: bool = False, progress: bool | None = None) -> Folder:
+def compare(run_folder, flow_folder, output, overwrite: bool = False, accept_unsteady: bool = False, progress: bool | None = None, **options) -> Folder:
     """`drumlin compare`: a measured run beside a flow, into a folder with comparison.json and a page, which is returned. progress: as in run."""
-    _command(["compare", run_folder, flow_folder, "-o", output, *_existing(overwrite), *(["--accept-unsteady"] if accept_unsteady else [])],
-             "compare", output, progress)
+    _command(_words("compare", run_folder, flow_folder, output=output, overwrite=overwrite, accept_unsteady=accept_unsteady, **options), "compare", output, progress)
     return read(output)
 
 
@@ -189,7 +213,7 @@ def score(fields, limits, output, against=(), overwrite: bool = False, progress:
     """`drumlin score`: errors of a continuum (the folder of a flow, or a file of its profiles, maps or fields) against runs, by limits; the content of
     score.json (docs/formats/score.md). against: measured runs, those of data/bed at that speed unless told. progress: as in run."""
     output = pathlib.Path(output)
-    _command(["score", fields, "--limits", limits, "-o", output, *(["--against", *against] if against else []), *_existing(overwrite)], "score", output, progress)
+    _command(_words("score", fields, limits=limits, output=output, against=against, overwrite=overwrite), "score", output, progress)
     return read(output / "score.json")
 
 
@@ -211,7 +235,7 @@ def sweep(scene, values: dict, output, processes: int | None = None, progress: b
             while waiting or at_work:
                 while waiting and len(at_work) < (processes or os.cpu_count()):
                     number, plan = waiting.pop(0)
-                    at_work.append(_Process(["run", file, "-o", output / f"{number:03}", "--threads", 1, "--resume", *_sets(plan, file is not scene)]))
+                    at_work.append(_Process(_words("run", file, output=output / f"{number:03}", threads=1, resume=True, set=_changes(plan, file is not scene))))
                 time.sleep(0.05)
                 for process in [process for process in at_work if process.has_ended()]:
                     at_work.remove(process)
