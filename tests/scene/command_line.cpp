@@ -1,7 +1,9 @@
 #include "apps/command_line/command_line.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -138,34 +140,45 @@ TEST(CommandLine, EveryOptionIsInHelpManAndCompletions) {
   }
 }
 
+/// A call of a command with a word for each option that it needs.
+std::string call_of(const Command& command, const Description& description) {
+  std::string line = command.name;
+  for (const Option& option : description.options())
+    if (option.is_positional() || option.is_required)
+      line += (option.is_positional() ? " " : " --" + option.name() + " ") +
+              (option.choices().empty() ? "x" : option.choices().front());
+  return line;
+}
+
+TEST(CommandLine, EveryRangeIsHeldAtItsEnds) {
+  int tried = 0;
+  for (const Command& command : all_commands()) {
+    if (!command.call) continue;
+    const Description description = command.call()->description();
+    for (const Option& option : description.options()) {
+      if (!option.allowed || !option.choices().empty()) continue;
+      const Allowed& range = *option.allowed;
+      std::vector<std::string> outside{"nan", "inf", "two"};
+      if (std::isfinite(range.min))
+        outside.push_back(fmt::format("{}", range.min - (range.min_open ? 0 : 1)));
+      if (std::isfinite(range.max)) outside.push_back(fmt::format("{}", range.max + 1));
+      for (const std::string& value : outside) {
+        const std::string line =
+            fmt::format("{} --{}={}", call_of(command, description), option.name(), value);
+        expect_has(message_of<InputError>([&] { request(line); }), value);
+        ++tried;
+      }
+    }
+  }
+  EXPECT_GT(tried, 80);
+}
+
 TEST(CommandLine, RefusesWrongUsage) {
-  for (const char* line : {"",
-                           "walk",
-                           "run",
-                           "run a.toml",
-                           "run a.toml -o o --resume --overwrite",
-                           "run a.toml -o o --threads 0",
-                           "run a.toml -o o --threads two",
-                           "run a.toml -o o --unknown",
-                           "run a.toml b.toml -o o",
-                           "new avalanche -o mine.toml",
-                           "new silo",
-                           "measure r --slice-width 0",
-                           "measure r --slice-width inf",
-                           "measure r --slice-width nan",
-                           "calibrate -o law.toml",
-                           "flow f.toml -o o",
-                           "scene",
-                           "scene check",
-                           "solve-contacts p.h5 --solver none",
-                           "solve-contacts p.h5 --tolerance -1",
-                           "solve-contacts p.h5 --watch 0",
-                           "cost s.toml --repeats 0",
-                           "cost s.toml --ranks 1,0",
-                           "cost s.toml --ranks two",
-                           "cost s.toml --time-limit 0",
-                           "cost s.toml --horizon -1",
-                           "--completion tcsh"})
+  for (const char* line :
+       {"", "walk", "run", "run a.toml", "run a.toml -o o --resume --overwrite", "run a.toml -o o --unknown",
+        "run a.toml b.toml -o o", "new avalanche -o mine.toml", "calibrate r -o l --amount",
+        "export r --vtu --measurements", "cost s.toml --ranks 1,0", "scene", "scene check",
+        "--completion tcsh"})
     EXPECT_THROW(request(line), InputError) << "drumlin " << line;
 }
 
