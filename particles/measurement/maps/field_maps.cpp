@@ -58,27 +58,29 @@ class RowMaker {
     return kernel_share_in_circle(x, z, batches_.graining().width, container_radius_);
   }
 
-  /// What is known at a node, and of its motion by displacements.
+  /// What is known at a node, and of its motion by displacements, where these are local.
   struct NodeValues {
-    MapValues seen, displaced;
+    LeaveOneOut<MapValues> seen, displaced;
   };
 
-  LeaveOneOut<NodeValues> values_of(std::size_t place, double inside) const {
+  NodeValues values_of(std::size_t place, double inside) const {
     std::vector<MapNode> batches(tile_.size());
     for (std::size_t b = 0; b < tile_.size(); ++b)
       if (!tile_[b].empty()) batches[b] = tile_[b][place];
     const LeaveOneOut<MapNode> sums = leave_one_out(batches);
-    const MapValues whole = values_at(sums.whole, snapshots_.whole, inside);
-    const PlaneMatrix pressure{whole.sigma_xx, -whole.sigma_xz, -whole.sigma_zx, whole.sigma_zz};
-    const MapValues displaced = displaced_values(sums.whole, pressure);
-    const bool local = std::isfinite(whole.v_x) &&
-                       std::hypot(displaced.v_x, displaced.v_z) * snapshots_.whole.time <=
-                           longest_displacement * batches_.graining().width * snapshots_.whole.pairs;
-    return each_of(
-        [&](const MapNode& node, const MapSums::Snapshots& all) -> NodeValues {
-          return {values_at(node, all, inside), local ? displaced_values(node, pressure) : MapValues{}};
-        },
+    NodeValues values;
+    values.seen = each_of(
+        [&](const MapNode& node, const MapSums::Snapshots& all) { return values_at(node, all, inside); },
         sums, snapshots_);
+    const MapValues& whole = values.seen.whole;
+    if (!std::isfinite(whole.v_x)) return values;
+    const PlaneMatrix pressure{whole.sigma_xx, -whole.sigma_xz, -whole.sigma_zx, whole.sigma_zz};
+    const auto displaced = [&](const MapNode& node) { return displaced_values(node, pressure); };
+    const MapValues motion = displaced(sums.whole);
+    if (std::hypot(motion.v_x, motion.v_z) * snapshots_.whole.time <=
+        longest_displacement * batches_.graining().width * snapshots_.whole.pairs)
+      values.displaced = each_of(displaced, sums);
+    return values;
   }
 
   /// `place` within the tile; `row` counts from the first one of the tile.
@@ -86,22 +88,17 @@ class RowMaker {
     const double inside = share_inside(column, rows_.first_row + row);
     if (inside == 0) return;
     const std::size_t at = row * grid_.columns + column;
-    const LeaveOneOut<NodeValues> values = values_of(place, inside);
+    const auto [values, displaced] = values_of(place, inside);
+    const MapValues& whole = values.whole;
     for (std::size_t f = 0; f < fields_.size(); ++f) {
       const MapQuantity& field = fields_[f];
-      const auto value_of = [&](const NodeValues& one) {
-        return (field.displaced ? one.displaced : one.seen).*field.value;
-      };
-      const double value = rows_.fields[f].value[at] = value_of(values.whole);
-      if (!values.without.empty())
-        rows_.fields[f].ci99[at] = ci99_of(values, [&](const NodeValues& one) {
-          return field.period > 0 ? nearest_turn(value_of(one) - value, field.period) : value_of(one);
-        });
+      const auto& of = field.displaced ? displaced : values;
+      const double value = rows_.fields[f].value[at] = of.whole.*field.value;
+      if (std::isnan(value) || of.without.empty()) continue;
+      rows_.fields[f].ci99[at] = ci99_of(of, [&](const MapValues& one) {
+        return field.period > 0 ? nearest_turn(one.*field.value - value, field.period) : one.*field.value;
+      });
     }
-    const MapValues& whole = values.whole.seen;
-    const auto half_width = [&](double MapValues::*value) {
-      return ci99_of(values, [&](const NodeValues& one) { return one.seen.*value; });
-    };
     rows_.nodes[at] = {{whole.nu, whole.p, whole.I, whole.mu},
                        whole.d_v_x_dz,
                        whole.sigma_xz,
@@ -112,11 +109,11 @@ class RowMaker {
                        whole.residual_z_contact,
                        whole.inertia_x,
                        whole.inertia_z,
-                       half_width(&MapValues::mu),
-                       half_width(&MapValues::residual_x),
-                       half_width(&MapValues::residual_z)};
+                       ci99_of(values, &MapValues::mu),
+                       ci99_of(values, &MapValues::residual_x),
+                       ci99_of(values, &MapValues::residual_z)};
     for (std::size_t b = 0; b < values.without.size(); ++b) {
-      const MapValues& one = values.without[b].seen;
+      const MapValues& one = values.without[b];
       rows_.without[b][at] = {one.nu, one.p, one.I, one.mu};
     }
   }
