@@ -17,8 +17,8 @@ int main(int argc, char** argv) {
     measured.layers.push_back(
         {.I = I, .mu = 0.35 + 0.02 * std::log(I) + noise, .I_error = 0.01 * I, .mu_error = 0.003});
   }
-  const coupling::Calibration calibration = coupling::calibration_of(
-      {measured}, {}, {.source = coupling::EvidenceSource::profiles, .form = coupling::FormKind::log});
+  const coupling::Calibration calibration =
+      coupling::calibration_of({measured}, {}, {.source = coupling::EvidenceSource::profiles, .form = "log"});
   const coupling::CalibratedLaw& law = calibration.law();
   std::printf("%s, rms misfit %.4f\n", described(calibration.rheology.mu).c_str(), law.fit.rms_misfit);
   for (const double I : {1e-3, 1e-2, 1e-1}) {

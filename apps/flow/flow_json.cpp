@@ -99,18 +99,13 @@ struct JsonKeys {
   void value(const std::string& key, const auto& value, const KeySpec&) { object[key] = value; }
 };
 
-// The keys of rheology.toml; those of the logarithm come without its name and covariance, as before there
-// were others.
+// The keys of rheology.toml.
 Json friction_json(const FrictionLaw& mu) {
   return std::visit(
       []<class Law>(Law law) {
         Json json{{"law", Law::name}};
         JsonKeys keys{json};
         describe(keys, law);
-        if constexpr (std::is_same_v<Law, LogLaw>) {
-          json.erase("law");
-          json.erase("covariance");
-        }
         return json;
       },
       mu);

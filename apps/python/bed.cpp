@@ -163,8 +163,10 @@ void add_bed(py::module_& module) {
           for (py::ssize_t k = 0; k < I.size(); ++k)
             points.back().push_back({I.at(k), mu.at(k), I_error.at(k), mu_error.at(k)});
         }
-        return calibrated(points, {.kind = form_named(form), .knots = knots, .slope_besides = slope_besides},
-                          draws);
+        FrictionForm asked = form_named(form);
+        asked.knots = knots;
+        asked.slope_besides = slope_besides;
+        return calibrated(points, asked, draws);
       },
       "runs"_a, "form"_a, "knots"_a = std::vector<double>(), "draws"_a = 0, "slope_besides"_a = 0.0);
   law.def_property_readonly("coefficients", [](const CalibratedLaw& of) { return of.fit.law; });

@@ -68,7 +68,7 @@ coupling::Calibration calibrated(const std::vector<Run>& arrays, const std::vect
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (!drawn.is_none()) drawn();
     };
-  if (form != "auto") options.form = coupling::form_named(form);
+  if (form != "auto") options.form = form;
   const OthersRun others_run;
   coupling::Calibration found = coupling::calibration_of(std::move(runs), {}, options);
   found.options.before_each_draw = {};
@@ -114,7 +114,7 @@ void add_laws(py::module_& module) {
   refuse_new(calibration);
   module.def("calibrate", &calibrated);
   calibration.def_property_readonly("text", [](const Calibration& c) { return rheology_text(c.rheology); });
-  calibration.def_property_readonly("form", [](const Calibration& c) { return name_of(c.law().form.kind); });
+  calibration.def_property_readonly("form", [](const Calibration& c) { return name_of(c.law().form); });
   calibration.def_property_readonly("coefficients", [](const Calibration& c) { return c.law().fit.law; });
   calibration.def_property_readonly("rms_misfit",
                                     [](const Calibration& c) { return c.law().fit.rms_misfit; });

@@ -30,7 +30,7 @@ std::vector<double> inertial_numbers(const PointsOfRuns& runs) {
 std::optional<FrictionForm> table_of(const PointsOfRuns& runs, FormKind kind) {
   const std::vector<double> I = inertial_numbers(runs);
   if (I.size() < points_of_a_table) return std::nullopt;
-  return FrictionForm{kind, table_knots(I)};
+  return FrictionForm{.kind = kind, .knots = table_knots(I)};
 }
 
 CalibratedLaw fitted_turn(const Calibration& calibration) {
@@ -48,15 +48,16 @@ void fit_forms(Calibration& calibration) {
   PointsOfRuns points;
   for (const RunEvidence& run : calibration.runs) points.push_back(friction_of(run, calibration));
   const std::size_t count = inertial_numbers(points).size();
-  std::vector<FrictionForm> forms{{.kind = FormKind::log}, {.kind = FormKind::log_linear}};
+  std::vector<FrictionForm> forms = formulas();
   if (const auto table = table_of(points, FormKind::table)) forms.push_back(*table);
   const bool good = forms.back().kind == FormKind::table && count >= points_of_a_good_table;
-  const FormKind asked = calibration.options.form.value_or(good ? FormKind::table : FormKind::log);
+  const std::string asked =
+      name_of(form_named(calibration.options.form.value_or(good ? TabulatedLaw::name : LogLaw::name)));
   bool found = false;
   for (const FrictionForm& form : forms) {
     // One form more than the points allow is no fault unless it was asked for.
-    if (form.kind != asked && count <= form.size()) continue;
-    if (form.kind == asked) {
+    if (name_of(form) != asked && count <= form.size()) continue;
+    if (name_of(form) == asked) {
       calibration.chosen = calibration.forms.size();
       found = true;
     }

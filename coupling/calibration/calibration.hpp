@@ -2,6 +2,7 @@
 // From the evidence of runs to one law, and what is known of it.
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "coupling/calibration/law_score.hpp"
@@ -13,9 +14,10 @@ namespace drumlin::coupling {
 
 struct CalibrationOptions {
   EvidenceSource source = EvidenceSource::maps;
-  std::optional<FormKind> form = {};  ///< of mu; absent: a table where there are points enough, else log
-  bool k = false;                     ///< k(I) is a part of the law
-  bool turn = false;                  ///< the turn of the stress is fitted although it is no part of the law
+  std::optional<std::string> form =
+      {};             ///< of mu, its name; absent: a table where there are points enough, else log
+  bool k = false;     ///< k(I) is a part of the law
+  bool turn = false;  ///< the turn of the stress is fitted although it is no part of the law
   int draws = 200;
   std::function<void()> before_each_draw = {};  ///< of mu; may throw to end a long fit
 };

@@ -1,12 +1,14 @@
 #include "coupling/calibration/friction_form.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "coupling/core/basics/enum_names.hpp"
 #include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::coupling {
@@ -37,12 +39,18 @@ std::array<double, 3> covariance_of(const std::vector<Coefficients>& draws) {
   return covariance;
 }
 
-bool is_table(FormKind kind) { return kind != FormKind::log && kind != FormKind::log_linear; }
-
 std::vector<double> values_at_knots(const Coefficients& law) {
   std::vector<double> values(law.size());
   std::partial_sum(law.begin(), law.end(), values.begin());
   return values;
+}
+
+void put_basis(const FrictionLaw& law, double I, std::span<double> to) {
+  std::visit(
+      [&](const auto& of) {
+        if constexpr (requires { of.basis(I); }) std::ranges::copy(of.basis(I), to.begin());
+      },
+      law);
 }
 
 // (k - 1)/(k + 1) over 2|D|/sqrt(p), and what one of its derivatives by k at a fixed I is by k at fixed
@@ -68,12 +76,11 @@ double least_slope(double mu) {
 }  // namespace
 
 std::size_t FrictionForm::size() const {
-  if (is_table(kind)) return knots.size();
-  return kind == FormKind::log ? 2 : 3;
+  return kind == FormKind::formula ? coefficients_of(formula).size() : knots.size();
 }
 
 FormCurve::FormCurve(const FrictionForm& form, const Coefficients& law) : kind_(form.kind) {
-  if (is_table(kind_)) {
+  if (kind_ != FormKind::formula) {
     std::vector<double> ln_I;
     for (const double I : form.knots) ln_I.push_back(std::log(I));
     knots_.emplace_back(
@@ -106,15 +113,13 @@ void FormCurve::influence(double I, std::span<double> by_coefficient) const {
     factor = state.by_ratio * state.gain;
     ln_I = std::log(state.at.I);
   }
-  if (knots_.empty()) {
-    by_coefficient[0] = factor;
-    by_coefficient[1] = factor * ln_I;
-    if (kind_ == FormKind::log_linear) by_coefficient[2] = factor * I;
-    return;
+  if (kind_ == FormKind::formula) {
+    put_basis(std::get<FrictionLaw>(law_), I, by_coefficient);
+  } else {
+    knots_.front().at(ln_I, by_coefficient);
+    // A coefficient lifts its own knot and all beyond it.
+    for (std::size_t j = by_coefficient.size(); j-- > 1;) by_coefficient[j - 1] += by_coefficient[j];
   }
-  knots_.front().at(ln_I, by_coefficient);
-  // A coefficient lifts its own knot and all beyond it.
-  for (std::size_t j = by_coefficient.size(); j-- > 1;) by_coefficient[j - 1] += by_coefficient[j];
   for (double& entry : by_coefficient) entry *= factor;
 }
 
@@ -192,19 +197,41 @@ std::vector<double> table_knots(std::vector<double> I, double per_decade, std::s
 
 FrictionLaw measured_friction(const FrictionForm& form, const Coefficients& law,
                               const std::vector<Coefficients>& draws, double I_min, double I_max) {
-  if (form.kind == FormKind::log) return LogLaw{law[0], law[1], covariance_of(draws), I_min, I_max};
-  if (form.kind == FormKind::log_linear) return LogLinearLaw{law[0], law[1], law[2], I_min, I_max};
-  return TabulatedLaw(form.knots, values_at_knots(law));
+  if (form.kind != FormKind::formula) return TabulatedLaw(form.knots, values_at_knots(law));
+  return std::visit(
+      [&]<class Law>(Law of) -> FrictionLaw {
+        if constexpr (Fitted<Law>) of = of.with(law);
+        if constexpr (requires { of.covariance; }) of.covariance = covariance_of(draws);
+        if constexpr (requires { of.I_min; }) of.I_min = I_min, of.I_max = I_max;
+        return of;
+      },
+      form.formula);
 }
 
 NormalStressRatio measured_stress_ratio(const FrictionForm& form, const Coefficients& law) {
   return {form.knots, values_at_knots(law)};
 }
 
-FormKind form_named(const std::string& name) {
-  for (const FormKind kind : {FormKind::log, FormKind::log_linear, FormKind::table})
-    if (name == name_of(kind)) return kind;
-  throw InputError("no form of mu(I) is named \"" + name + "\" (allowed: log, log-linear, table)");
+std::string name_of(const FrictionForm& form) {
+  if (form.kind == FormKind::formula) return name_of(form.formula);
+  return form.kind == FormKind::table  ? TabulatedLaw::name
+         : form.kind == FormKind::turn ? "turn"
+                                       : "stress-ratio";
+}
+
+FrictionForm form_named(const std::string& name) {
+  for (const FrictionLaw& law : fitted_laws())
+    if (name == name_of(law))
+      return {std::holds_alternative<TabulatedLaw>(law) ? FormKind::table : FormKind::formula, law};
+  throw InputError(
+      fmt::format("no form of mu(I) is named \"{}\" (allowed: {})", name, fmt::join(fitted_names(), ", ")));
+}
+
+std::vector<FrictionForm> formulas() {
+  std::vector<FrictionForm> forms;
+  for (const std::string& name : fitted_names())
+    if (const FrictionForm form = form_named(name); form.kind == FormKind::formula) forms.push_back(form);
+  return forms;
 }
 
 }  // namespace drumlin::coupling

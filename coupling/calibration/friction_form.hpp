@@ -14,20 +14,27 @@
 
 namespace drumlin::coupling {
 
-/// log: mu = c0 + c1 ln I. log_linear: c0 + c1 ln I + c2 I. The others are tables whose coefficients are the
-/// value at the first knot and the growth from each knot to the next. table: mu, which grows. stress_ratio: k
-/// over I. turn: k as well, fitted to the stress across the strain rate over the pressure, (k - 1)/(k + 1),
-/// measured over 2|D|/sqrt(p).
-enum class FormKind { log, log_linear, table, stress_ratio, turn };
-constexpr auto names_of(FormKind) { return std::array{"log", "log-linear", "table", "stress-ratio", "turn"}; }
+/// formula: mu, a law with a basis (coupling/core/law/form.hpp). The others are tables whose coefficients are
+/// the value at the first knot and the growth from each knot to the next. table: mu, which grows.
+/// stress_ratio: k over I. turn: k as well, fitted to the stress across the strain rate over the pressure,
+/// (k - 1)/(k + 1), measured over 2|D|/sqrt(p).
+enum class FormKind { formula, table, stress_ratio, turn };
 
 struct FrictionForm {
-  FormKind kind = FormKind::log;
+  FormKind kind = FormKind::formula;
+  FrictionLaw formula = LogLaw{};         ///< of a formula, with any coefficients
   std::vector<double> knots = {};         ///< of a table: inertial numbers, ascending, two at least
   std::vector<double> least_growth = {};  ///< of `table`, per unit of ln I and interval; empty: 1e-4
   double slope_besides = 0;               ///< of a law that adds to the table, per unit of ln I
   std::size_t size() const;               ///< number of coefficients
 };
+
+/// The name of its law; "stress-ratio", "turn".
+std::string name_of(const FrictionForm& form);
+/// A form of mu by the name of its law, a table without knots; throws InputError.
+FrictionForm form_named(const std::string& name);
+/// Every formula.
+std::vector<FrictionForm> formulas();
 
 using Coefficients = std::vector<double>;
 
@@ -80,7 +87,5 @@ FrictionLaw measured_friction(const FrictionForm& form, const Coefficients& law,
 
 /// k of `stress_ratio` or `turn` as it crosses to the continuum.
 NormalStressRatio measured_stress_ratio(const FrictionForm& form, const Coefficients& law);
-
-FormKind form_named(const std::string& name);  ///< of mu: the first three; throws InputError
 
 }  // namespace drumlin::coupling

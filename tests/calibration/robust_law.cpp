@@ -14,8 +14,8 @@ namespace drumlin::robust_law {
 using namespace coupling;
 namespace {
 
-const FrictionForm log_linear{.kind = FormKind::log_linear};
-const FrictionForm logarithm{.kind = FormKind::log};
+const FrictionForm log_linear{.formula = LogLinearLaw{}};
+const FrictionForm logarithm{.formula = LogLaw{}};
 const Coefficients truth{0.33, 0.011, 0.6};
 
 /// Layers of I from 1e-4 to 0.1 with normal noise.

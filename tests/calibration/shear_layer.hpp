@@ -11,7 +11,7 @@
 
 namespace drumlin::testing {
 
-inline const coupling::FrictionForm logarithm{.kind = coupling::FormKind::log};
+inline const coupling::FrictionForm logarithm{.formula = LogLaw{}};
 inline const coupling::Coefficients truth{0.36, 0.014};
 inline constexpr double turn = 0.05;  // of the stress, at every I
 

@@ -15,7 +15,7 @@ namespace {
 
 using namespace testing_boxes;
 
-const FrictionForm logarithm{.kind = FormKind::log};
+const FrictionForm logarithm{.formula = LogLaw{}};
 const Coefficients truth{0.35, 0.013};
 
 FlowProblem problem(const Coefficients& law) {

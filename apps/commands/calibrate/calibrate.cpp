@@ -38,8 +38,8 @@ std::string forms_text(const coupling::Calibration& calibration) {
     const double middle = std::sqrt(law.I_min * law.I_max);
     text += fmt::format(
         "  {} {:<10}  rms misfit {:.4f}, scatter beyond the errors {:.4f}, band at I = {:.1e}: +- {:.4f}\n",
-        f == calibration.chosen ? "*" : " ", name_of(law.form.kind), law.fit.rms_misfit,
-        law.fit.intrinsic_scatter, middle, coupling::half_width_at(law, middle));
+        f == calibration.chosen ? "*" : " ", name_of(law.form), law.fit.rms_misfit, law.fit.intrinsic_scatter,
+        middle, coupling::half_width_at(law, middle));
     if (f == calibration.chosen && coupling::half_width_at(law, middle) > law.curve().at(middle).value)
       text += "    warning: the interval is wider than mu itself: the runs are too short for a law\n";
   }
@@ -84,7 +84,7 @@ std::string one_law_text(const coupling::Calibration& calibration) {
 coupling::CalibrationOptions settings_of(const CalibrateOptions& options, coupling::EvidenceSource source) {
   coupling::CalibrationOptions settings{
       .source = source, .k = options.k, .turn = options.misalignment, .draws = options.draws};
-  if (options.law != "auto") settings.form = coupling::form_named(options.law);
+  if (options.law != "auto") settings.form = options.law;
   return settings;
 }
 

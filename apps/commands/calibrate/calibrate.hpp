@@ -1,6 +1,7 @@
 #pragma once
 // `drumlin calibrate`: one law from the tensors or profiles of one or more runs.
 #include "apps/command_line/command.hpp"
+#include "coupling/core/law/friction_law.hpp"
 
 namespace drumlin::apps {
 
@@ -26,8 +27,9 @@ struct CalibrateOptions {
     d.add(
         "--from", from, "", one_of({"auto", "maps", "profiles"}),
         "The tensors of maps.h5 (stress along the strain rate), or the ratio of profiles.csv at the centre");
-    d.add("--law", law, "", one_of({"auto", "log", "log-linear", "table"}),
-          "Form of mu(I): a + b ln I, a + b ln I + c I, points");
+    std::vector<std::string> forms = fitted_names();
+    forms.insert(forms.begin(), "auto");
+    d.add("--law", law, "", one_of(forms), "Form of mu(I): a + b ln I, a + b ln I + c I, points");
     d.add("--I-min", I_min, "", above(0), "Least inertial number that is fitted");
     d.add("--I-max", I_max, "", above(0), "Greatest one");
     d.add("--draws", draws, "", at_least(16, 10000),

@@ -25,7 +25,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json form_json(const coupling::CalibratedLaw& law, bool chosen) {
-  Json form{{"form", name_of(law.form.kind)},
+  Json form{{"form", name_of(law.form)},
             {"chosen", chosen},
             {"coefficients", law.fit.law},
             {"rms_misfit", law.fit.rms_misfit},

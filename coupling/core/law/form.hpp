@@ -13,6 +13,7 @@
 //   threshold(): mu_s, below which the material stands still
 //   I_min, I_max: the range that it was fitted on
 //   coefficients(), with(coefficients): what a fit determines, and the same form with others
+//   basis(I): what each of them is multiplied with, where mu, before it is kept positive, is their sum
 #include <cmath>
 #include <span>
 #include <string>

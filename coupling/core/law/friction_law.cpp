@@ -1,6 +1,7 @@
 #include "coupling/core/law/friction_law.hpp"
 
 #include <limits>
+#include <type_traits>
 
 #include "coupling/core/basics/errors.hpp"
 
@@ -45,6 +46,25 @@ std::string described(const FrictionLaw& law) {
 
 std::vector<FormFault> faults_of(const FrictionLaw& law) {
   return std::visit([](const auto& of) { return of.faults(); }, law);
+}
+
+std::string name_of(const FrictionLaw& law) {
+  return std::visit([]<class Law>(const Law&) { return std::string(Law::name); }, law);
+}
+
+std::vector<FrictionLaw> fitted_laws() {
+  std::vector<FrictionLaw> laws;
+  const auto add = [&]<class... Laws>(std::type_identity<std::variant<Laws...>>) {
+    ((Fitted<Laws> ? laws.push_back(Laws{}) : void()), ...);
+  };
+  add(std::type_identity<FrictionLaw>());
+  return laws;
+}
+
+std::vector<std::string> fitted_names() {
+  std::vector<std::string> names;
+  for (const FrictionLaw& law : fitted_laws()) names.push_back(name_of(law));
+  return names;
 }
 
 std::vector<double> coefficients_of(const FrictionLaw& law) {

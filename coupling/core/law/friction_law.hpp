@@ -50,6 +50,13 @@ std::string described(const FrictionLaw& law);
 /// between 0.001 and 10 at the largest I.
 std::vector<FormFault> faults_of(const FrictionLaw& law);
 
+/// As files and commands call it: "log".
+std::string name_of(const FrictionLaw& law);
+
+/// One of each form that a fit determines, and their names.
+std::vector<FrictionLaw> fitted_laws();
+std::vector<std::string> fitted_names();
+
 /// The numbers that tell a fitted law from others of its form; none of a form that is not fitted.
 std::vector<double> coefficients_of(const FrictionLaw& law);
 /// The same form with others, as many.

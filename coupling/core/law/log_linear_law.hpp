@@ -1,5 +1,7 @@
 #pragma once
 // mu = a + b ln I + c I, kept positive: the logarithm of slow flow, and what fast flow adds.
+#include <array>
+
 #include "coupling/core/law/form.hpp"
 
 namespace drumlin {
@@ -15,6 +17,7 @@ struct LogLinearLaw {
 
   FrictionValue friction(double I) const { return kept_positive(a + b * std::log(I) + c * I, b + c * I); }
   std::vector<double> coefficients() const { return {a, b, c}; }
+  std::array<double, 3> basis(double I) const { return {1, std::log(I), I}; }
   LogLinearLaw with(std::span<const double> of) const { return {of[0], of[1], of[2], I_min, I_max}; }
   std::string words() const {
     return "mu = " + in_words(a) + " + " + in_words(b) + " ln I + " + in_words(c) + " I";

@@ -1,6 +1,7 @@
 #include "coupling/core/law/rheology_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -202,7 +203,8 @@ std::vector<FrictionLaw> draws_of(const FrictionLaw& law, const std::vector<doub
 void check_band(const RheologyFile& file, Faults& faults) {
   const std::size_t size = coefficients_of(file.mu.friction).size(), count = file.band->draws.size();
   if (size == 0)
-    return faults.refuse("band.draws", "is of a law that is not fitted", "log, log-linear or table");
+    return faults.refuse("band.draws", "is of a law that is not fitted",
+                         fmt::format("{}", fmt::join(fitted_names(), ", ")));
   if (count == 0 || count % size != 0)
     return faults.refuse("band.draws", "has " + std::to_string(count) + " numbers",
                          "a multiple of " + std::to_string(size) + ", the numbers of one law");
