@@ -264,23 +264,6 @@ TEST(OutputFolder, HasOneWriter) {
   }
 }
 
-TEST(OutputFolder, TheLockOfAnotherUserSaysWhose) {
-  // Root alone may become another user for a while, and nobody else can leave a file of somebody else.
-  if (::geteuid() != 0) GTEST_SKIP() << "takes root to be another user";
-  const TemporaryFolder folder;
-  fs::permissions(folder.path(), fs::perms::all);
-  const fs::path lock = folder / folder_lock_name;
-  replace_file(lock, "process 7, drumlin run, since then");
-  fs::permissions(lock, fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read);
-  ASSERT_EQ(::seteuid(65534), 0);
-  const auto message = message_of<InputError>([&] { FolderLock{lock, "test"}; });
-  ASSERT_EQ(::seteuid(0), 0);
-  expect_has(
-      message,
-      ".lock: is of user root: of a run that goes on (process 7, drumlin run, since then), or was killed");
-  EXPECT_TRUE(fs::exists(lock));
-}
-
 TEST(GrowingOutput, GoesOnOnlyFromFilesThatAreWhole) {
   const TemporaryFolder folder;
   {

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <pwd.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -33,21 +32,6 @@ std::string holder_in(int descriptor) {
   return bytes > 0 ? std::string(text.data(), static_cast<std::size_t>(bytes)) : "another process";
 }
 
-/// Throws where the lock did not open because it is another user's; errno stays.
-void refuse_of_another_user(const fs::path& file) {
-  const int error = errno;
-  struct stat lock {};
-  if ((error == EACCES || error == EPERM) && ::lstat(file.c_str(), &lock) == 0 &&
-      lock.st_uid != ::geteuid()) {
-    const Descriptor theirs(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-    const passwd* user = ::getpwuid(lock.st_uid);
-    throw InputError(fmt::format(
-        "{}: is of user {}: of a run that goes on ({}), or was killed; wait for its end or remove the file",
-        file.string(), user ? user->pw_name : std::to_string(lock.st_uid), holder_in(theirs.number())));
-  }
-  errno = error;
-}
-
 }  // namespace
 
 std::string time_text() {
@@ -62,7 +46,7 @@ std::string time_text() {
 FolderLock::FolderLock(const fs::path& file, const std::string& command) : held_(-1) {
   do {  // its holder may remove it after we have opened it
     held_ = Descriptor(::open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666));
-    if (held_.number() < 0) refuse_of_another_user(file), throw_io_error(file, "made");
+    if (held_.number() < 0) throw_io_error(file, "made");
     if (::flock(held_.number(), LOCK_EX | LOCK_NB) == 0) continue;
     if (errno != EWOULDBLOCK) throw_io_error(file, "locked");
     throw InputError(fmt::format("{}: is being written by {}; wait until it has ended",

@@ -17,8 +17,7 @@ inline constexpr const char* folder_lock_name = ".lock";
 class FolderLock {
  public:
   /// `command`: who holds it, for whom it keeps out. Throws InputError that names the holder (process,
-  /// command, since when) if another one holds it, or another user has left it; IoError if the file cannot be
-  /// made.
+  /// command, since when) if another one holds it; IoError if the file cannot be made.
   FolderLock(const std::filesystem::path& file, const std::string& command);
 
  private:
