@@ -4,6 +4,7 @@ usage: strangers.py DRUMLIN FOLDER_OF_THIS_TEST DATA
 """
 
 import hashlib
+import itertools
 import os
 import pathlib
 import resource
@@ -55,62 +56,34 @@ def plant_new_results(target, command, elsewhere):
 
 
 def planted_results_stay_where_they_are(executable, scene, run, csv, folder):
-    trials = 0
-    elsewhere = folder / "elsewhere"
-    before = somewhere_else(elsewhere)
-    for sub, (command, *more) in SUBFOLDERS.items():
-        for existing in EXISTING:
-            for kind in ("new results", "link"):
-                stranger = folder / "stranger"
-                shutil.copytree(run, stranger)
-                if kind == "link":
-                    sign(elsewhere, command, {"removed.txt": b"years of work\n"})
-                    (stranger / sub).symlink_to(elsewhere)
-                else:
-                    plant_new_results(stranger / sub, command, elsewhere)
-                code, said = called(executable, command, stranger, *more, *existing)
-                (elsewhere / "manifest.txt").unlink(missing_ok=True)
-                require(bytes_below(elsewhere) == before, f"{command} {existing}, {kind}: changed files elsewhere\n{said}")
-                require(code in (0, 2), f"{command} {existing}, {kind}: {code}\n{said}")
-                shutil.rmtree(stranger)
-                trials += 1
-    for command, words in (("run", ["run", scene, *SHORT_RUN]), ("import", ["import", csv / "import.toml"])):
-        for existing in EXISTING:
-            stranger = folder / "stranger"
-            plant_new_results(stranger, command, elsewhere)
-            code, said = called(executable, *words, "-o", stranger, *existing)
-            require(bytes_below(elsewhere) == before and code == 2, f"{command} {existing}: {code}, or changed files elsewhere\n{said}")
-            shutil.rmtree(stranger)
-            trials += 1
+    """Of every command that leaves a folder: new results planted in it, and a link in its place."""
+    elsewhere, stranger = folder / "elsewhere", folder / "stranger"
+    before, trials = somewhere_else(elsewhere), 0
+    commands = {sub: [words[0], stranger, *words[1:]] for sub, words in SUBFOLDERS.items()}
+    commands |= {"run": ["run", scene, *SHORT_RUN, "-o", stranger / "run"], "import": ["import", csv / "import.toml", "-o", stranger / "import"]}
+    for (sub, words), existing, linked in itertools.product(commands.items(), EXISTING, (False, True)):
+        if linked and sub not in SUBFOLDERS:  # a link that a user names stands for its folder
+            continue
+        shutil.copytree(run, stranger)
+        if linked:
+            sign(elsewhere, words[0], {"removed.txt": b"years of work\n"})
+            (stranger / sub).symlink_to(elsewhere)
+        else:
+            plant_new_results(stranger / sub, words[0], elsewhere)
+        code, said = called(executable, *words, *existing)
+        (elsewhere / "manifest.txt").unlink(missing_ok=True)
+        require(bytes_below(elsewhere) == before and code in (0, 2), f"{words} {existing}, a link: {linked}: {code}, or changed files elsewhere\n{said}")
+        shutil.rmtree(stranger)
+        trials += 1
     return trials
 
 
-def linked_folders_are_not_followed(executable, scene, run, folder):
-    trials = 0
-    words = ["run", scene, *SHORT_RUN, "-o"]
-    for sub in ("snapshots", "problems", "replaced"):
-        for existing in EXISTING:
-            ours, elsewhere = folder / "ours", folder / "other"
-            shutil.copytree(run, ours)
-            if sub == "snapshots":
-                shutil.move(ours / sub, elsewhere)
-            else:
-                shutil.copytree(run, elsewhere)
-            (ours / sub).symlink_to(elsewhere)
-            before, here = bytes_below(elsewhere), bytes_below(ours)
-            code, said = called(executable, *words, ours, *existing)
-            require(bytes_below(elsewhere) == before and bytes_below(ours) == here, f"run {existing}, linked {sub}: changed files\n{said}")
-            require(code == (2 if existing != ["--resume"] or sub == "snapshots" else 0), f"run {existing}, linked {sub}: {code}\n{said}")
-            shutil.rmtree(ours)
-            shutil.rmtree(elsewhere)
-            trials += 1
-    # A link that a user names stands for its folder.
+def a_named_link_stands_for_its_folder(executable, scene, folder):
     (folder / "real").mkdir()
     (folder / "named").symlink_to(folder / "real")
     for name in ("named/", "named"):
-        code, said = called(executable, *words, f"{folder}/{name}", "--overwrite")
+        code, said = called(executable, "run", scene, *SHORT_RUN, "-o", f"{folder}/{name}", "--overwrite")
         require(code == 0 and (folder / "real" / "run.json").exists(), f"-o {name}: {code}\n{said}")
-    return trials + 2
 
 
 def names_need_not_be_utf8(executable, scene, folder):
@@ -189,8 +162,8 @@ def main():
         (csv / "import.toml").write_text(
             'format = "drumlin-import-1"\ntitle = "A disc"\n[grains]\ndensity_kg_m3 = 2700\n[csv]\ngrains = ["grains-*.csv"]\n', encoding="utf-8")
         counts = {"planted": planted_results_stay_where_they_are(executable, scene, run, csv, folder),
-                  "links": linked_folders_are_not_followed(executable, scene, run, folder),
                   "contact problems": contact_problems_of_others(executable, problem, folder)}
+        a_named_link_stands_for_its_folder(executable, scene, folder)
         nothing_to_do_needs_no_disk(executable, scene, run)
         counts["no UTF-8"] = names_need_not_be_utf8(executable, scene, folder)
         counts["settings"] = settings_of_the_current_folder(executable, scene, run, data, folder)
