@@ -7,7 +7,6 @@ that does not fit (result_files.py) with its own code.
 usage: python3 -I -B isolated.py SCRIPT [WORD...]
 """
 
-import mmap
 import os
 import pathlib
 import runpy
@@ -16,7 +15,6 @@ import sys
 
 STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 NO_FILE = 74  # exit code of the commands for files that cannot be read or written
-NEEDED = 320  # MiB: numpy, matplotlib and the buffer of OpenBLAS, which asks for ever where it gets none (style.py)
 
 
 def stop(*_):
@@ -44,11 +42,6 @@ if __name__ == "__main__":
     sys.path[:0] = [str(script.parent), str(figures)]
     sys.path.append(str(pathlib.Path(__file__).absolute().parents[2]))  # of a build tree it consists of links
     sys.argv = sys.argv[1:]
-    try:
-        mmap.mmap(-1, NEEDED << 20).close()
-    except OSError:
-        print(f"not enough memory: {NEEDED} MiB are needed to draw", file=sys.stderr)
-        sys.exit(NO_FILE)
     try:
         if script.parent == figures:  # pages draw nothing
             load_matplotlib(script.parent)

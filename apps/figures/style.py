@@ -15,9 +15,6 @@ import result_files
 import whole_file
 from quantities import axis_label
 
-# OpenBLAS takes its buffer now, while isolated.py knows that there is memory: where it gets none later it asks for ever.
-np.linalg.solve(np.eye(4), np.ones(4))
-
 # Okabe and Ito's colours: told apart with any kind of colour vision, and in grey.
 PARTICLES = "#0072B2"
 CONTINUUM = "#D55E00"

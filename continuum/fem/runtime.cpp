@@ -4,7 +4,6 @@
 
 #include "coupling/core/machine/first_rank.hpp"
 #include "coupling/core/machine/library_words.hpp"
-#include "coupling/core/machine/system_limits.hpp"
 
 namespace drumlin::continuum {
 
@@ -16,7 +15,6 @@ struct FemRuntime::Libraries {
 
 FemRuntime::FemRuntime(int&, char**& argv) {
   prepare_libraries();
-  start_blas(mpi_mebibytes);
   libraries_ = std::make_unique<Libraries>(argv);
 }
 

@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "coupling/core/machine/library_words.hpp"
-#include "coupling/core/machine/system_limits.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -38,7 +37,6 @@ class Waiting {
 
 MpiWorld::MpiWorld() {
   prepare_libraries();
-  require_memory(mpi_mebibytes);
   int given = MPI_THREAD_SINGLE;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);

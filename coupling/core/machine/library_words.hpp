@@ -4,9 +4,6 @@
 
 namespace drumlin {
 
-/// MiB that MPI begins with.
-inline constexpr int mpi_mebibytes = 64;
-
 /// What MPI and BLAS are to find in the environment, and the open files that MPI needs: first of all. Throws
 /// IoError.
 void prepare_libraries();
