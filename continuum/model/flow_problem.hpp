@@ -105,7 +105,7 @@ struct RotatingFrame {
 };
 
 /// k(I): turns the stress against the strain rate (continuum/rheology/turned_law.hpp).
-struct TurnedStress {
+struct NonCoaxialStress {
   StressRatioLaw k;
   double softness = 0.1;  ///< c of turn_of()
   /// s sgn(W - Omega_D) at a point; empty: from the flow itself, for verification else.
@@ -159,7 +159,7 @@ struct FlowProblem {
   Domain domain;
   std::map<Side, BoundaryCondition> boundary;
   StressLaw law;
-  std::optional<TurnedStress> turned;  ///< absent: sigma_xx = sigma_zz in simple shear
+  std::optional<NonCoaxialStress> turned;  ///< absent: sigma_xx = sigma_zz in simple shear
   /// Absent: mu is that of the local I. The law has to determine a fluidity at any stress
   /// (continuum/rheology/nonlocal_law.hpp).
   std::optional<NonlocalFluidity> nonlocal;

@@ -92,7 +92,7 @@ void add_law_and_effects(const FlowScene& scene, const RheologyFit& law, FlowPro
   const FlowEffects& effects = scene.effects;
   problem.law = stress_law(law);
   check_law(effects, law, problem.law);
-  if (law.k) problem.turned = TurnedStress{.k = StressRatioLaw(law.k->I, law.k->k)};
+  if (law.k) problem.turned = NonCoaxialStress{.k = StressRatioLaw(law.k->I, law.k->k)};
   if (effects.nonlocal) add_nonlocal(*effects.nonlocal, law, problem);
   if (effects.memory) problem.memory.emplace(*law.memory);
   if (effects.inertia) problem.inertia = Inertia{};

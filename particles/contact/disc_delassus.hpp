@@ -39,7 +39,7 @@ class DiscDelassus {
 
   std::vector<std::int32_t> i, j;    ///< bodies; the normal points from j to i
   std::vector<double> n_x, n_z;      ///< unit normal; the tangent is (n_z, -n_x)
-  std::vector<double> lever;         ///< R_eff / r_i = r_j / (r_i + r_j), 1 at a wall; empty if dim < 3
+  std::vector<double> radius_ratio;  ///< R_eff / r_i = r_j / (r_i + r_j), 1 at a wall; empty if dim < 3
   std::vector<double> inverse_W_nn;  ///< 1 / (1/m_i + 1/m_j), driven walls and the cell aside
   std::vector<double> inverse_mass;  ///< of each body; 0 for the fixed one and the driven ones
   std::vector<DrivenBody> driven;
@@ -63,28 +63,29 @@ class DiscDelassus {
   /// Whether contact a pushes more than its grains.
   bool pushes_more(int a) const { return cell || driven_wall(a) != nullptr; }
 
-  /// Masses must be there. `lever_i` if dim < 3: of no effect.
-  void add(std::int32_t body_i, std::int32_t body_j, double normal_x, double normal_z, double lever_i = 1) {
+  /// Masses must be there. `radius_ratio_i` if dim < 3: of no effect.
+  void add(std::int32_t body_i, std::int32_t body_j, double normal_x, double normal_z,
+           double radius_ratio_i = 1) {
     resize(i.size() + 1);
-    set(contacts() - 1, body_i, body_j, normal_x, normal_z, lever_i);
+    set(contacts() - 1, body_i, body_j, normal_x, normal_z, radius_ratio_i);
   }
   /// Makes room for contacts that are set one by one, in any order. A cell must be there.
   void resize(std::size_t count) {
     each_array([count](auto& array) { array.resize(count); });
   }
   /// The same for contacts that are all set anew.
-  void renew(std::size_t count) {
+  void resize_uninitialized(std::size_t count) {
     each_array([count](auto& array) { resize_closely(array, count); });
   }
   void set(int a, std::int32_t body_i, std::int32_t body_j, double normal_x, double normal_z,
-           double lever_i = 1) {
+           double radius_ratio_i = 1) {
     i[a] = body_i, j[a] = body_j, n_x[a] = normal_x, n_z[a] = normal_z;
     inverse_W_nn[a] = 1 / (inverse_mass[body_i] + inverse_mass[body_j]);
-    if constexpr (dim == 3) lever[a] = lever_i;
+    if constexpr (dim == 3) radius_ratio[a] = radius_ratio_i;
   }
 
   /// State at r = 0.
-  void rest(State& state) const { rest(state, TeamLoops()); }
+  void rest(State& state) const { rest(state, ParallelLoops()); }
 
   /// Adds the impulse dr of contact a to its bodies I and J, J the driven wall of a contact with one, and to
   /// the rates of the cell, if there is one.
@@ -119,9 +120,9 @@ class DiscDelassus {
     const double w_i = inverse_mass[i[a]], w_j = inverse_mass[j[a]], w = w_i + w_j;
     LocalMatrix W{w, 0, tangential_gain<spin> * w};
     if constexpr (dim == 3) {
-      const double l_i = lever[a], l_j = 1 - l_i;
-      W.tr = rim_gain * (l_j * w_j - l_i * w_i);
-      W.rr = rim_gain * (l_i * l_i * w_i + l_j * l_j * w_j);
+      const double l_i = radius_ratio[a], l_j = 1 - l_i;
+      W.tr = surface_gain * (l_j * w_j - l_i * w_i);
+      W.rr = surface_gain * (l_i * l_i * w_i + l_j * l_j * w_j);
     }
     if (cell) {
       const double x = arm_x[a] * arm_x[a] * cell->inverse_inertia_x,
@@ -169,7 +170,7 @@ class DiscDelassus {
 
   /// State of given impulses, from scratch. Many contacts that are planned are added slice by slice, whatever
   /// the number of threads.
-  void load(State& state, std::span<const double> r, const TeamLoops& loops = TeamLoops()) const {
+  void load(State& state, std::span<const double> r, const ParallelLoops& loops = ParallelLoops()) const {
     constexpr int many = 50'000;
     if (!plan.empty() && contacts() >= many && dim < 3 && !coupled()) return load_by_slices(state, r, loops);
     rest(state);
@@ -177,7 +178,7 @@ class DiscDelassus {
   }
 
   /// The same of contacts that are planned: first those of even slices, then the others.
-  void load_by_slices(State& state, std::span<const double> r, const TeamLoops& loops) const {
+  void load_by_slices(State& state, std::span<const double> r, const ParallelLoops& loops) const {
     rest(state, loops);
     const auto first = [&](int slice) { return plan.group_start[plan.slice_start[slice]]; };
     for (const int parity : {0, 1})
@@ -210,14 +211,16 @@ class DiscDelassus {
   }
 
  private:
-  contact_law::ContactFrame<double> frame(int a) const { return {n_x[a], n_z[a], dim == 3 ? lever[a] : 1}; }
+  contact_law::ContactFrame<double> frame(int a) const {
+    return {n_x[a], n_z[a], dim == 3 ? radius_ratio[a] : 1};
+  }
   template <class Each>
   void each_array(Each each) {
     each(i), each(j), each(n_x), each(n_z), each(inverse_W_nn);
-    if constexpr (dim == 3) each(lever);
+    if constexpr (dim == 3) each(radius_ratio);
     if (cell) each(arm_x), each(arm_z);
   }
-  void rest(State& state, const TeamLoops& loops) const {
+  void rest(State& state, const ParallelLoops& loops) const {
     resize_closely(state, inverse_mass.size());
     loops.each(state.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b) state[b] = {0, 0, 0, inverse_mass[b]};

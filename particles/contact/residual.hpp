@@ -11,7 +11,7 @@
 #include "particles/contact/contact_problem.hpp"
 #include "particles/contact/solution.hpp"
 #include "particles/contact/squared_errors.hpp"
-#include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/parallel_loops.hpp"
 #include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
@@ -62,7 +62,7 @@ double impulse_of(const Body& body) {
 /// Sum over the bodies of the sizes of the impulses that gave them these velocities; NaN if it holds no
 /// bodies.
 template <class State>
-double summed_impulses(const State& bodies, TeamLoops& loops) {
+double summed_impulses(const State& bodies, ParallelLoops& loops) {
   if constexpr (requires(typename State::value_type body) { body.inverse_mass; })
     return loops.sum(bodies.size(), [&](std::size_t begin, std::size_t end) {
       double sum = 0;
@@ -143,7 +143,7 @@ ResidualSums residual_sums(const Problem& problem, std::size_t begin, std::size_
 /// What the residual of impulses r adds up; `velocities` receives u = W r + q, and what the bodies do.
 template <class Problem>
 ResidualSums residual_sums_of(const Problem& problem, std::span<const double> r,
-                              Velocities<typename Problem::Delassus>& velocities, TeamLoops& loops) {
+                              Velocities<typename Problem::Delassus>& velocities, ParallelLoops& loops) {
   const auto& W = problem.W;
   auto& [bodies, u] = velocities;
   if constexpr (of_discs<Problem>) {
@@ -164,7 +164,7 @@ ResidualSums residual_sums_of(const Problem& problem, std::span<const double> r,
 
 /// Sum of the squares of the entries of q, or of as many entries of its rounding: what residuals refer to.
 template <class Problem>
-double squared_reference(const Problem& problem, TeamLoops& loops) {
+double squared_reference(const Problem& problem, ParallelLoops& loops) {
   const double squares = loops.sum(problem.q.size(), [&](std::size_t begin, std::size_t end) {
     return squared_norm(std::span(problem.q).subspan(begin, end - begin));
   });
@@ -174,10 +174,10 @@ double squared_reference(const Problem& problem, TeamLoops& loops) {
 /// Residual of impulses r (dim * contacts entries); `velocities` receives those that they cause. A problem
 /// without contacts, or with r exact, has residual 0; if every entry of q is zero, and its rounding too, or
 /// one infinite, and r does not solve it, infinity. Where no contact closes faster than its rounding, none
-/// sinks. The result does not depend on the team of the loops.
+/// sinks. The result does not depend on the pool of the loops.
 template <class Problem>
 ContactResidual residual_of(const Problem& problem, std::span<const double> r,
-                            Velocities<typename Problem::Delassus>& velocities, TeamLoops& loops) {
+                            Velocities<typename Problem::Delassus>& velocities, ParallelLoops& loops) {
   const int count = problem.contacts();
   ContactResidual residual;
   const ResidualSums sums = residual_sums_of(problem, r, velocities, loops);
@@ -200,7 +200,7 @@ ContactResidual residual_of(const Problem& problem, std::span<const double> r,
 template <class Problem>
 ContactResidual residual_of(const Problem& problem, std::span<const double> r,
                             Velocities<typename Problem::Delassus>& velocities) {
-  TeamLoops alone;
+  ParallelLoops alone;
   return residual_of(problem, r, velocities, alone);
 }
 
@@ -212,12 +212,12 @@ ContactResidual residual_of(const Problem& problem, std::span<const double> r) {
 
 /// Residual of a solution; sets its velocities.
 template <class Problem>
-ContactResidual residual_of(const Problem& problem, Solution<Problem>& solution, TeamLoops& loops) {
+ContactResidual residual_of(const Problem& problem, Solution<Problem>& solution, ParallelLoops& loops) {
   return residual_of(problem, std::span<const double>(solution.impulses), solution.velocities, loops);
 }
 template <class Problem>
 ContactResidual residual_of(const Problem& problem, Solution<Problem>& solution) {
-  TeamLoops alone;
+  ParallelLoops alone;
   return residual_of(problem, solution, alone);
 }
 

@@ -147,7 +147,7 @@ bool SweepPlanner::plan(std::span<const std::int32_t> slice_of_body, std::span<c
                         std::span<const std::int32_t> j, SweepPlan& plan, std::vector<std::int32_t>& order) {
   const auto bodies = static_cast<std::int32_t>(slice_of_body.size());
   const std::size_t pairs = i.size();
-  slice_of_contact_.renew(pairs);
+  slice_of_contact_.resize_uninitialized(pairs);
   std::atomic<bool> suits = true;
   loops_.each(pairs, [&](std::size_t begin, std::size_t end) {
     for (std::size_t a = begin; a < end; ++a) {
@@ -174,13 +174,13 @@ bool SweepPlanner::plan(std::span<const std::int32_t> slice_of_body, std::span<c
   start_.assign(2 * static_cast<std::size_t>(strips) + 1, 0);
   for (const std::int32_t slice : slice_of_contact_) ++start_[slice + 1];
   for (std::int32_t s = 0; s < 2 * strips; ++s) start_[s + 1] += start_[s];
-  by_slice_.renew(pairs);
+  by_slice_.resize_uninitialized(pairs);
   for (std::size_t a = 0; a < pairs; ++a)
     by_slice_[start_[slice_of_contact_[a]]++] = static_cast<std::int32_t>(a);
 
   resize_closely(order, pairs);
-  colour_.renew(pairs);
-  used_.renew(bodies);
+  colour_.resize_uninitialized(pairs);
+  used_.resize_uninitialized(bodies);
   groups_.resize(2 * static_cast<std::size_t>(strips));
   // Slices of the same parity share no body, as in a sweep.
   for (const int parity : {0, 1}) loops_.each_of(strips, [&](int k) { colour(2 * k + parity, i, j, order); });

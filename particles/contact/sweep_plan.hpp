@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/parallel_loops.hpp"
 #include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
@@ -44,8 +44,8 @@ std::vector<std::int32_t> body_slices_along(std::span<const double> position, st
 /// Plans one set of contacts after the other; keeps work space only.
 class SweepPlanner {
  public:
-  /// Lets a team share the work; the plan does not depend on it.
-  void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
+  /// Lets a pool share the work; the plan does not depend on it.
+  void use(ThreadPool* pool) { loops_ = ParallelLoops(pool); }
   /// Takes work space from a memory, in the frame that is open when pairs are planned.
   void use(WorkMemory* memory) {
     slice_of_contact_.use(memory), by_slice_.use(memory), colour_.use(memory), used_.use(memory);
@@ -67,7 +67,7 @@ class SweepPlanner {
                             std::vector<std::int32_t>& groups, std::span<std::int32_t> order,
                             std::vector<std::int32_t>& left);
 
-  TeamLoops loops_;
+  ParallelLoops loops_;
   WorkArray<std::int32_t> slice_of_contact_, by_slice_;
   std::vector<std::int32_t> start_;
   std::vector<std::vector<std::int32_t>> groups_;  // of each slice

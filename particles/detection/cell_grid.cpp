@@ -25,7 +25,7 @@ void CellGrid::sort(const SearchedState& state, std::span<const std::int32_t> me
   cell_z_ = cell_size;
   const int column_bits = std::bit_width(static_cast<unsigned>(columns_ - 1)),
             row_bits = std::bit_width(static_cast<unsigned>(rows - 1));
-  places_.renew(count);
+  places_.resize_uninitialized(count);
   for (std::size_t m = 0; m < count; ++m) {
     const std::int32_t b = members[m];
     const Point first = period_.first({bodies.x[b], bodies.z[b]});
@@ -64,7 +64,7 @@ struct Followed {
 
 }  // namespace
 
-bool CellGrid::follow(const SearchedState& state, const TeamLoops& loops) {
+bool CellGrid::follow(const SearchedState& state, const ParallelLoops& loops) {
   const auto all = loops.combined<Followed>(grains_.size(), [&](std::size_t begin, std::size_t end) {
     Followed some;
     for (NearGrain& g : std::span(grains_).subspan(begin, end - begin)) {
@@ -86,7 +86,7 @@ void CellGrid::sort_places(int bits) {
   if (passes == 0) return;
   const int width = (bits + passes - 1) / passes;
   std::vector<std::int32_t> start;
-  sorted_.renew(places_.size());
+  sorted_.resize_uninitialized(places_.size());
   for (int pass = 0; pass < passes; ++pass) {
     const auto digit = [shift = pass * width, mask = (std::uint64_t{1} << width) - 1](std::uint64_t key) {
       return static_cast<std::size_t>(key >> shift & mask);
@@ -163,7 +163,7 @@ std::size_t GrainGrids::bytes() const {
   return sum;
 }
 
-bool GrainGrids::follow(const SearchedState& state, double farthest, const TeamLoops& loops) {
+bool GrainGrids::follow(const SearchedState& state, double farthest, const ParallelLoops& loops) {
   if (!period_.open() || !state.period.open() || count_ != state.bodies.count()) return false;
   drift_ = 0;
   for (CellGrid& grid : std::span(grids_).first(used_)) {

@@ -9,7 +9,7 @@
 
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/period.hpp"
-#include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/parallel_loops.hpp"
 #include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
@@ -43,7 +43,7 @@ class CellGrid {
   void sort(const SearchedState& state, std::span<const std::int32_t> members, double cell_size);
   /// Gives the grains their positions and velocities of now; they stay in their cells. Of an open domain.
   /// False if one has another radius than it had.
-  bool follow(const SearchedState& state, const TeamLoops& loops);
+  bool follow(const SearchedState& state, const ParallelLoops& loops);
   /// Bound on how far any grain has moved along x or z since it was sorted.
   double drift() const { return drift_; }
 
@@ -174,7 +174,7 @@ class GrainGrids {
   void sort(const SearchedState& state, double range);
   /// Whether the grains are those that were sorted, in an open domain, and none has moved further than
   /// `farthest` along x or z: they then have their positions and velocities of now, in the same cells.
-  bool follow(const SearchedState& state, double farthest, const TeamLoops& loops);
+  bool follow(const SearchedState& state, double farthest, const ParallelLoops& loops);
 
   /// Calls `visit(grain)` for every grain whose centre is in the rectangle, and for some around it.
   template <class Visit>

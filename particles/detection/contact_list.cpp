@@ -102,7 +102,7 @@ struct MotionExtremes {
 };
 
 GrainMotion motion_of(const Bodies& bodies, std::span<const double> v_x, std::span<const double> v_z,
-                      const DetectionInput& input, const TeamLoops& loops) {
+                      const DetectionInput& input, const ParallelLoops& loops) {
   const auto all = loops.combined<MotionExtremes>(bodies.count(), [&](std::size_t begin, std::size_t end) {
     MotionExtremes some;
     for (std::size_t b = begin; b < end; ++b) some.add(v_x[b], v_z[b], bodies.radius[b]);
@@ -244,7 +244,7 @@ void ContactDetection::list_pairs(const SearchedState& state, const PairRule& ru
 std::span<const Candidate> ContactDetection::find(const Bodies& bodies, std::span<const double> v_x,
                                                   std::span<const double> v_z, const DetectionInput& input) {
   if (bodies.count() == 0) {
-    candidates_.renew(0);
+    candidates_.resize_uninitialized(0);
     return candidates();
   }
   weighed_.clear();
@@ -265,22 +265,22 @@ std::span<const Candidate> ContactDetection::find(const Bodies& bodies, std::spa
   return candidates();
 }
 
-bool ContactDetection::is_local(std::span<const StruckDisc> struck, double reach) const {
+bool ContactDetection::is_local(std::span<const CollidedDisc> collided, double reach) const {
   const double cells = 2 * reach / cell_ + 2;  // that a disc's search reads, along x and z
-  return static_cast<double>(struck.size()) * cells * cells < static_cast<double>(bounds_.size());
+  return static_cast<double>(collided.size()) * cells * cells < static_cast<double>(bounds_.size());
 }
 
-bool ContactDetection::find_around(std::span<const StruckDisc> struck, const Bodies& bodies,
+bool ContactDetection::find_around(std::span<const CollidedDisc> collided, const Bodies& bodies,
                                    std::span<const double> v_x, std::span<const double> v_z,
                                    const DetectionInput& input) {
   added_.clear(), found_.clear(), weighed_.clear();
-  if (struck.empty()) return false;
-  for (const StruckDisc& disc : struck)
+  if (collided.empty()) return false;
+  for (const CollidedDisc& disc : collided)
     bounds_[disc.grain] = std::max(bounds_[disc.grain], disc.displacement);
   const GrainMotion motion = motion_of(bodies, v_x, v_z, input, loops_);
   const double range = 2 * input.margin + 2 * input.time_step * motion.speeds +
                        1.5 * *std::max_element(bounds_.begin(), bounds_.end());
-  if (!is_local(struck, range + motion.largest)) {
+  if (!is_local(collided, range + motion.largest)) {
     const auto before = candidates();  // pairs that have met part now, and are far from each other still
     const std::vector<Candidate> found(before.begin(), before.end());
     find(bodies, v_x, v_z, input);
@@ -289,7 +289,7 @@ bool ContactDetection::find_around(std::span<const StruckDisc> struck, const Bod
     added_.clear();
     return true;
   }
-  for (const StruckDisc& disc : struck) add_around(disc, range, bodies, v_x, v_z, input);
+  for (const CollidedDisc& disc : collided) add_around(disc, range, bodies, v_x, v_z, input);
   for (const WeighedPair& wall : weighed_)
     if (wall.pair.gap < input.margin + wall.reach + bounds_[wall.pair.i] / 2) found_.push_back(wall.pair);
   if (input.period.moves()) add_image_velocities(bodies, input.period, found_);
@@ -307,7 +307,7 @@ void ContactDetection::add_image_velocities(const Bodies& bodies, const Period& 
   }
 }
 
-void ContactDetection::add_around(const StruckDisc& disc, double range, const Bodies& bodies,
+void ContactDetection::add_around(const CollidedDisc& disc, double range, const Bodies& bodies,
                                   std::span<const double> v_x, std::span<const double> v_z,
                                   const DetectionInput& input) {
   const std::int32_t i = disc.grain;

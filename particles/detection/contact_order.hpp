@@ -12,10 +12,10 @@ namespace drumlin::particles {
 /// The solve order of contacts; keeps work space only.
 class ContactOrder {
  public:
-  /// Lets a team share the work; the order does not depend on it.
-  void use(ThreadTeam* team) {
-    loops_ = TeamLoops(team);
-    planner_.use(team);
+  /// Lets a pool share the work; the order does not depend on it.
+  void use(ThreadPool* pool) {
+    loops_ = ParallelLoops(pool);
+    planner_.use(pool);
   }
   /// Takes work space from a memory, in the frame that is open when pairs are sorted.
   void use(WorkMemory* memory) { planner_.use(memory); }
@@ -30,7 +30,7 @@ class ContactOrder {
   std::span<const std::int32_t> order() const { return order_; }
 
  private:
-  TeamLoops loops_;
+  ParallelLoops loops_;
   std::span<const double> folded(const Bodies& bodies, const Period& period);
 
   SweepPlanner planner_;

@@ -193,7 +193,7 @@ void GrainPairs::cut_list() {
 void GrainPairs::collect_discs(const SearchedState& state) {
   const Bodies& bodies = state.bodies;
   const bool open = state.period.open();
-  discs_.renew(bodies.count());
+  discs_.resize_uninitialized(bodies.count());
   loops_.each(bodies.count(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const Point place{bodies.x[b], bodies.z[b]}, first = open ? place : state.period.first(place);
@@ -219,7 +219,7 @@ void GrainPairs::weigh_rest(std::span<const ListedPair> pairs, std::size_t done,
 
 void GrainPairs::weigh_list(const SearchedState& state, const PairRule& rule) {
   collect_discs(state);
-  weights_.renew(list_.size()), closing_.renew(list_.size());
+  weights_.resize_uninitialized(list_.size()), closing_.resize_uninitialized(list_.size());
   each_share([&](Share& share) {
     const auto pairs = std::span(list_).subspan(share.first, share.last - share.first);
     PairWeight* const weights = weights_.data() + share.first;
@@ -349,7 +349,7 @@ void GrainPairs::find_extras(const PairRule& rule, std::span<const double> bound
 void GrainPairs::keep(const PairRule& rule, std::span<const double> bounds,
                       std::span<const WeighedPair> walls, WorkArray<Candidate>& candidates) {
   find_extras(rule, bounds, walls);
-  kept_.renew(list_.size());
+  kept_.resize_uninitialized(list_.size());
   each_share([&](Share& share) {
     std::int32_t* const begin = kept_.data() + share.first;
     std::int32_t* end = begin;
@@ -371,8 +371,8 @@ void GrainPairs::keep(const PairRule& rule, std::span<const double> bounds,
     listed += share.kept;
   }
   const std::size_t all = listed + extras_.size();
-  candidates.renew(all + all / 16);  // struck grains may add some
-  candidates.renew(all);
+  candidates.resize_uninitialized(all + all / 16);  // collided grains may add some
+  candidates.resize_uninitialized(all);
   each_share([&](const Share& share) {
     const bool last = &share == &shares_.back();
     Candidate* to = candidates.data() + share.place;

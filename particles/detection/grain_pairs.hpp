@@ -9,7 +9,7 @@
 #include "particles/detection/cell_grid.hpp"
 #include "particles/detection/motion_tree.hpp"
 #include "particles/detection/pair_weights.hpp"
-#include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/parallel_loops.hpp"
 #include "particles/parallel/work_memory.hpp"
 
 namespace drumlin::particles {
@@ -43,7 +43,7 @@ struct PairRule {
 /// nor on the number of threads.
 class GrainPairs {
  public:
-  void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
+  void use(ThreadPool* pool) { loops_ = ParallelLoops(pool); }
   /// Takes what a search needs beside the list from a memory, in a frame that lasts until keep().
   void use(WorkMemory* memory);
 
@@ -101,7 +101,7 @@ class GrainPairs {
   void find_far(const PairRule& rule, std::span<const double> bounds, bool by_bounds);
   void find_extras(const PairRule& rule, std::span<const double> bounds, std::span<const WeighedPair> walls);
 
-  TeamLoops loops_;
+  ParallelLoops loops_;
   std::vector<Piece> pieces_;
   std::size_t used_ = 0;
   std::vector<ListedPair> list_;  // in the order of (i, j)

@@ -32,14 +32,14 @@ MotionBounds bounds_of(std::span<const NearGrain> grains) {
 
 }  // namespace
 
-void MotionTree::build(const GrainGrids& grids, const Period& period, const TeamLoops& loops) {
+void MotionTree::build(const GrainGrids& grids, const Period& period, const ParallelLoops& loops) {
   period_ = period;
   nodes_.clear();
   roots_.clear();
   for (const CellGrid& grid : grids.grids()) roots_.push_back(tree_of(grid, loops));
 }
 
-void MotionTree::follow(const TeamLoops& loops) {
+void MotionTree::follow(const ParallelLoops& loops) {
   loops.each(nodes_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
       if (nodes_[n].leaf()) nodes_[n].bounds = bounds_of(nodes_[n].grains());
@@ -52,7 +52,7 @@ void MotionTree::follow(const TeamLoops& loops) {
   }
 }
 
-std::int32_t MotionTree::tree_of(const CellGrid& grid, const TeamLoops& loops) {
+std::int32_t MotionTree::tree_of(const CellGrid& grid, const ParallelLoops& loops) {
   const auto cells = grid.cells();
   const std::size_t first = nodes_.size();
   nodes_.reserve(first + grid.count() + grid.count() / 2);
@@ -106,7 +106,7 @@ void MotionTree::raise(std::span<const Block> blocks, std::vector<Block>& above)
   }
 }
 
-void MotionTree::set_bounds(std::span<const double> bounds, const TeamLoops& loops) {
+void MotionTree::set_bounds(std::span<const double> bounds, const ParallelLoops& loops) {
   loops.each(nodes_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       double largest = 0;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "particles/detection/cell_grid.hpp"
-#include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/parallel_loops.hpp"
 
 namespace drumlin::particles {
 
@@ -93,9 +93,9 @@ struct FarSearch {
 /// A tree over each of the grids of a search, and what it bounds. Keeps pointers into the grids.
 class MotionTree {
  public:
-  void build(const GrainGrids& grids, const Period& period, const TeamLoops& loops);
+  void build(const GrainGrids& grids, const Period& period, const ParallelLoops& loops);
   /// Bounds the grains as they are now that the grids have followed them.
-  void follow(const TeamLoops& loops);
+  void follow(const ParallelLoops& loops);
   std::size_t bytes() const {
     std::size_t sum =
         nodes_.capacity() * sizeof(Node) + (blocks_.capacity() + above_.capacity()) * sizeof(Block);
@@ -105,7 +105,7 @@ class MotionTree {
     return sum;
   }
   /// Sets what each body may be pushed beyond its own motion; one entry per body.
-  void set_bounds(std::span<const double> bounds, const TeamLoops& loops);
+  void set_bounds(std::span<const double> bounds, const ParallelLoops& loops);
 
   /// Cuts a search into parts, enough for some threads to share them about evenly; returns their number.
   std::size_t cut(const FarSearch& search);
@@ -114,7 +114,7 @@ class MotionTree {
   ///   gap < margin + 2 h |v_i - v_j|,  after bounds + (bound_i + bound_j) / 2,
   /// but for those that are known, b in an image of the domain. Each part p has one thread.
   template <class Meet>
-  void far_pairs(const FarSearch& search, const TeamLoops& loops, Meet meet) {
+  void far_pairs(const FarSearch& search, const ParallelLoops& loops, Meet meet) {
     loops.each_of(static_cast<int>(parts_.size()), [&](int p) {
       search_below(search, parts_[p], stacks_[p], [&, p](const auto&... found) { meet(p, found...); });
     });
@@ -183,7 +183,7 @@ class MotionTree {
   void open_both(const Node& node, std::vector<Two>& stack) const;
   void open_one(const Two& two, bool first, std::vector<Two>& stack) const;
 
-  std::int32_t tree_of(const CellGrid& grid, const TeamLoops& loops);
+  std::int32_t tree_of(const CellGrid& grid, const ParallelLoops& loops);
   void raise(std::span<const Block> blocks, std::vector<Block>& above);
 
   Period period_;

@@ -38,7 +38,7 @@ struct RollingLaw {
   PairLaw mu_r;
 
   /// R_eff / r_i of a pair; a wall counts as flat.
-  static double lever(const Candidate& pair, const Bodies& bodies) {
+  static double radius_ratio(const Candidate& pair, const Bodies& bodies) {
     return pair.j < 0 ? 1 : bodies.radius[pair.j] / (bodies.radius[pair.i] + bodies.radius[pair.j]);
   }
   /// Part of a turning wall in the rolling velocity.
@@ -46,12 +46,12 @@ struct RollingLaw {
                           double time_step) {
     return pair.j < 0 ? bodies.radius[pair.i] * walls.displacement[-1 - pair.j].angle / time_step : 0;
   }
-  /// Rolling velocity of a pair with that lever.
+  /// Rolling velocity of a pair with that radius_ratio.
   static double couple_velocity(const Candidate& pair, const Bodies& bodies, const WallStep& walls,
-                                double lever, double time_step) {
+                                double radius_ratio, double time_step) {
     const double rim_j = pair.j < 0 ? wall_part(pair, bodies, walls, time_step)
-                                    : (1 - lever) * bodies.radius[pair.j] * bodies.spin[pair.j];
-    return lever * bodies.radius[pair.i] * bodies.spin[pair.i] - rim_j;
+                                    : (1 - radius_ratio) * bodies.radius[pair.j] * bodies.spin[pair.j];
+    return radius_ratio * bodies.radius[pair.i] * bodies.spin[pair.i] - rim_j;
   }
   double coefficient(const Candidate& pair, const MaterialsOf& materials) const {
     return value_of(mu_r, pair.i, pair.j, materials);

@@ -24,7 +24,7 @@ void describe(Visitor&, Spin&) {}
 // Terms in a step; the inertia is in W (contact/disc_delassus.hpp).
 
 /// Sliding velocity of a contact from that of the centres: the rims of discs that spin slide against it.
-inline double sliding_of_rims(double u_t, const Candidate& pair, const Bodies& bodies) {
+inline double surface_sliding(double u_t, const Candidate& pair, const Bodies& bodies) {
   u_t -= bodies.radius[pair.i] * bodies.spin[pair.i];
   if (pair.j >= 0) u_t -= bodies.radius[pair.j] * bodies.spin[pair.j];
   return u_t;

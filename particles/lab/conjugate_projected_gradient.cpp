@@ -4,7 +4,7 @@
 
 #include "particles/lab/any_solver.hpp"
 #include "particles/lab/diagonal_entry.hpp"
-#include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/parallel_loops.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -17,7 +17,7 @@ constexpr double share_left = 0.5;
 // Products after which u is computed anew, against the rounding errors of its updates.
 constexpr int refresh_every = 50;
 
-double dot(TeamLoops& loops, std::span<const double> x, std::span<const double> y) {
+double dot(ParallelLoops& loops, std::span<const double> x, std::span<const double> y) {
   return loops.sum(x.size(), [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t k = begin; k < end; ++k) sum += x[k] * y[k];
@@ -27,7 +27,7 @@ double dot(TeamLoops& loops, std::span<const double> x, std::span<const double> 
 
 /// u = W r + q, of discs on all threads.
 template <class Problem>
-void multiply(const Problem& problem, const TeamLoops& loops, std::span<const double> r,
+void multiply(const Problem& problem, const ParallelLoops& loops, std::span<const double> r,
               std::span<const double> q, typename Problem::Delassus::State& state, std::vector<double>& u) {
   const auto& W = problem.W;
   if constexpr (of_discs<Problem>) {
@@ -58,8 +58,8 @@ class ProjectedGradient {
   static constexpr int dim = Problem::dim;
 
  public:
-  ProjectedGradient(const Problem& problem, ThreadTeam* team, std::vector<double>& r)
-      : problem_(problem), r_(r), loops_(problem.contacts() > 2000 ? team : nullptr) {
+  ProjectedGradient(const Problem& problem, ThreadPool* pool, std::vector<double>& r)
+      : problem_(problem), r_(r), loops_(problem.contacts() > 2000 ? pool : nullptr) {
     const auto size = problem.q.size();
     r_.resize(size);
     work_.zero.assign(size, 0.0);
@@ -228,7 +228,7 @@ class ProjectedGradient {
   typename Problem::Delassus::State state_;
   ProjectedGradientWorkspace work_;
   std::vector<double>& r_;
-  TeamLoops loops_;
+  ParallelLoops loops_;
   bool restart_ = true;
   int steps_since_refresh_ = 0;
 };
@@ -239,7 +239,7 @@ template <class Problem>
 SolveReport solve_cpg(const Problem& problem, const StoppingRule& rule, SolverWorkspace<Problem>& work,
                       Solution<Problem>& solution) {
   StoppingTest test(rule);
-  ProjectedGradient<Problem> gradient(problem, work.team, solution.impulses);
+  ProjectedGradient<Problem> gradient(problem, work.pool, solution.impulses);
   for (int sweeps = 1;; ++sweeps) {
     gradient.advance();
     if (!test.due(sweeps)) continue;

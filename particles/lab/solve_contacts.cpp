@@ -4,7 +4,7 @@
 
 #include "particles/lab/any_solver.hpp"
 #include "particles/lab/disc_problem.hpp"
-#include "particles/parallel/thread_team.hpp"
+#include "particles/parallel/thread_pool.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -12,9 +12,9 @@ namespace {
 template <class Problem>
 SolveReport solved(const Problem& problem, const StoppingRule& rule, const std::string& solver, int threads,
                    std::vector<double>& impulses) {
-  ThreadTeam team(threads);
+  ThreadPool pool(threads);
   SolverWorkspace<Problem> work;
-  work.team = &team;
+  work.pool = &pool;
   Solution<Problem> solution;
   const SolveReport report = any_solver<Problem>(solver)(problem, rule, work, solution);
   impulses = std::move(solution.impulses);

@@ -15,12 +15,12 @@ constexpr std::size_t least_piece = std::size_t{1} << 16;
 
 }  // namespace
 
-WorkMemory::Frame::Frame(WorkMemory* memory) : memory_(memory) {
+WorkMemory::Scope::Scope(WorkMemory* memory) : memory_(memory) {
   if (memory == nullptr) return;
   memory->frames_.push_back({++memory->frames_so_far_, memory->piece_, memory->used_});
 }
 
-WorkMemory::Frame::~Frame() {
+WorkMemory::Scope::~Scope() {
   if (memory_ == nullptr) return;
   memory_->piece_ = memory_->frames_.back().piece, memory_->used_ = memory_->frames_.back().used;
   memory_->frames_.pop_back();

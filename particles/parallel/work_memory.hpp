@@ -18,12 +18,12 @@ class WorkMemory {
  public:
   /// The time from its construction to its end; frames stand within one another. Without memory it does
   /// nothing.
-  class Frame {
+  class Scope {
    public:
-    explicit Frame(WorkMemory* memory);
-    ~Frame();
-    Frame(const Frame&) = delete;
-    Frame& operator=(const Frame&) = delete;
+    explicit Scope(WorkMemory* memory);
+    ~Scope();
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
 
    private:
     WorkMemory* memory_;
@@ -83,7 +83,7 @@ class WorkArray {
     memory_ = memory;
   }
   /// Becomes `count` long; what it held may be lost.
-  void renew(std::size_t count) {
+  void resize_uninitialized(std::size_t count) {
     if (count > capacity()) move_to(count, 0);
     size_ = count;
   }
@@ -94,7 +94,7 @@ class WorkArray {
     size_ = count;
   }
   void assign(std::size_t count, const T& value) {
-    renew(count);
+    resize_uninitialized(count);
     std::fill(data_, data_ + count, value);
   }
 
@@ -114,14 +114,14 @@ class WorkArray {
   struct Free {
     void operator()(T* entries) const { ::operator delete (entries, std::align_val_t{64}); }
   };
-  bool lives() const { return memory_ == nullptr || memory_->is_open(frame_); }
+  bool lives() const { return memory_ == nullptr || memory_->is_open(scope_); }
   void move_to(std::size_t capacity, std::size_t kept) {
     const std::size_t bytes = capacity * sizeof(T);
     if (memory_ != nullptr) {
       T* const to = static_cast<T*>(memory_->take(bytes));
       if (kept > 0) std::memcpy(to, data_, kept * sizeof(T));
       data_ = to;
-      frame_ = memory_->frame();
+      scope_ = memory_->frame();
     } else {
       if (kept == 0) own_.reset();
       std::unique_ptr<T, Free> to(static_cast<T*>(::operator new (bytes + bytes / 16, std::align_val_t{64})));
@@ -137,7 +137,7 @@ class WorkArray {
   std::unique_ptr<T, Free> own_;
   T* data_ = nullptr;
   std::size_t size_ = 0, capacity_ = 0;
-  std::uint64_t frame_ = 0;
+  std::uint64_t scope_ = 0;
 };
 
 template <class T>

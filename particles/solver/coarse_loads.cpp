@@ -15,7 +15,7 @@ struct Longest {
 };
 
 double longest_contact(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
-                       const BodyPlaces& places, const TeamLoops& loops) {
+                       const BodyPlaces& places, const ParallelLoops& loops) {
   const auto fixed = static_cast<std::int32_t>(places.x.size());
   return loops
       .combined<Longest>(i.size(),
@@ -36,7 +36,7 @@ double longest_contact(std::span<const std::int32_t> i, std::span<const std::int
 template <class T, class Law, bool spin>
 void CoarseLoads::lay_out(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
                           const BodyPlaces& places, const StripProblem<T, Law, spin>& strips,
-                          const TeamLoops& loops) {
+                          const ParallelLoops& loops) {
   const auto [x_low, x_high] = std::minmax_element(places.x.begin(), places.x.end());
   const auto [z_low, z_high] = std::minmax_element(places.z.begin(), places.z.end());
   grid_ = field_grid({*x_low, *x_high, *z_low, *z_high}, static_cast<std::int64_t>(i.size()),
@@ -104,7 +104,7 @@ void CoarseLoads::exchange(StripProblem<T, Law, spin>& strips, int phase) {
 /// Strip by strip, as long as what a strip moves is in the caches. The second slice of a part's last strip
 /// touches the first one of the next part, and waits until the parts are done.
 template <class T, class Law, bool spin>
-void CoarseLoads::add_up(StripProblem<T, Law, spin>& strips, const TeamLoops& loops) {
+void CoarseLoads::add_up(StripProblem<T, Law, spin>& strips, const ParallelLoops& loops) {
   const auto [first_part, end_part] = strips.own_parts();
   const auto rest = [&](int strip) {
     const auto [begin, end] = strips.records(strip);
@@ -147,7 +147,7 @@ std::vector<double> CoarseLoads::solve() const {
 }
 
 template <class T, class Law, bool spin>
-bool CoarseLoads::scale(StripProblem<T, Law, spin>& strips, const TeamLoops& loops) {
+bool CoarseLoads::scale(StripProblem<T, Law, spin>& strips, const ParallelLoops& loops) {
   constexpr std::size_t parts = StripProblem<T, Law, spin>::parts;
   work_.assign(parts * grid_.nodes(), 0.0);
   rows_.assign(parts * rows(), 0.0);
@@ -171,10 +171,10 @@ bool CoarseLoads::scale(StripProblem<T, Law, spin>& strips, const TeamLoops& loo
 }
 
 #define DRUMLIN_INSTANTIATE_IN(T, Law, spin)                                                       \
-  template bool CoarseLoads::scale(StripProblem<T, Law, spin>&, const TeamLoops&);                 \
+  template bool CoarseLoads::scale(StripProblem<T, Law, spin>&, const ParallelLoops&);             \
   template void CoarseLoads::lay_out(std::span<const std::int32_t>, std::span<const std::int32_t>, \
                                      const BodyPlaces&, const StripProblem<T, Law, spin>&,         \
-                                     const TeamLoops&);
+                                     const ParallelLoops&);
 #define DRUMLIN_INSTANTIATE(Problem, Law, spin) \
   DRUMLIN_INSTANTIATE_IN(float, Law, spin) DRUMLIN_INSTANTIATE_IN(double, Law, spin)
 DRUMLIN_EACH_PLAIN_PROBLEM(DRUMLIN_INSTANTIATE)

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/parallel_loops.hpp"
 #include "particles/parallel/work_memory.hpp"
 #include "particles/solver/coarse_field.hpp"
 #include "particles/solver/coarse_kernels.hpp"
@@ -42,12 +42,12 @@ class CoarseLoads {
   /// body positions.x.size() is the fixed one.
   template <class T, class Law, bool spin>
   void lay_out(std::span<const std::int32_t> i, std::span<const std::int32_t> j, const BodyPlaces& places,
-               const StripProblem<T, Law, spin>&, const TeamLoops&);
+               const StripProblem<T, Law, spin>&, const ParallelLoops&);
   /// Scales the impulses of the strips that were laid out each by a factor between 1/2 and 2,
   /// as impulses and bodies stand. False, and nothing scaled, where there is no good field. The result does
-  /// not depend on the team of the loops.
+  /// not depend on the pool of the loops.
   template <class T, class Law, bool spin>
-  bool scale(StripProblem<T, Law, spin>&, const TeamLoops&);
+  bool scale(StripProblem<T, Law, spin>&, const ParallelLoops&);
 
  private:
   template <class T, class Law, bool spin>
@@ -58,7 +58,7 @@ class CoarseLoads {
   void exchange(StripProblem<T, Law, spin>&, int phase);
   /// The sums of work_ and rows_.
   template <class T, class Law, bool spin>
-  void add_up(StripProblem<T, Law, spin>&, const TeamLoops&);
+  void add_up(StripProblem<T, Law, spin>&, const ParallelLoops&);
   std::vector<double> solve() const;
 
   FieldGrid grid_;

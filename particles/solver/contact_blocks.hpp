@@ -32,7 +32,7 @@ void set_place(const Problem& problem, std::int32_t c, std::int32_t i, std::int3
     for (int e = 0; e < coefficients; ++e) block.mu[e][k] = number(problem.mu[coefficients * a + e]);
   if constexpr (dim == 3) {
     const auto inverse = W.block(a).inverse;
-    block.lever[k] = number(W.lever[a]);
+    block.radius_ratio[k] = number(W.radius_ratio[a]);
     block.inverse_W_rr[k] = number(inverse.rr), block.inverse_W_tt[k] = number(inverse.tt_reduced);
   }
 }

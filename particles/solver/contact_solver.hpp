@@ -31,7 +31,7 @@ struct SolverWorkspace {
   CoarseLoads coarse;
   BodyPlaces places;  ///< of the bodies of the problem, for `coarse`; none: large problems do without
   WorkMemory* memory = nullptr;  ///< for what a solve needs until it ends; none: it is kept
-  ThreadTeam* team = nullptr;    ///< none: the calling thread alone; results do not depend on it
+  ThreadPool* pool = nullptr;    ///< none: the calling thread alone; results do not depend on it
   World* world = nullptr;        ///< none: this process alone; results do not depend on it
 };
 

@@ -250,7 +250,7 @@ SolveReport settle_clusters(const Problem& problem, const StoppingRule& rule, So
   constexpr double gain = 0.9;  // of the residual, for which another round pays
   StoppingTest test(rule);
   Neighbourhood near(problem);
-  TeamLoops alone;
+  ParallelLoops alone;
   const double allowed = rule.tolerance * rule.tolerance * squared_reference(problem, alone) /
                          static_cast<double>(problem.q.size());
   int solved = 0;

@@ -23,9 +23,9 @@ void StripProblem<T, Law, spin>::pack_bodies(const Problem& problem, const Sweep
   }
   const std::size_t all = driven_bodies_ + W.driven.size() + W.driven.size() % 2 + 2 * W.cell.has_value();
   require_offsets<T>(all);
-  place_.renew(plan.body_order.size());
-  bodies_.renew(all);
-  before_.renew(all);
+  place_.resize_uninitialized(plan.body_order.size());
+  bodies_.resize_uninitialized(all);
+  before_.resize_uninitialized(all);
   for (int k = 0; k < plan.strips(); ++k) {
     std::size_t place = strips_[k].bodies;
     for (std::int32_t o = plan.strip_bodies[k]; o < plan.strip_bodies[k + 1]; ++o, ++place) {
@@ -93,9 +93,9 @@ void StripProblem<T, Law, spin>::lay_out(const Problem& problem, const SweepPlan
     strip.block[slice % 2 + 1] = blocks;
     strip.group[slice % 2 + 1] = groups_.size();
   }
-  blocks_.renew(blocks);
-  contact_.renew(blocks * width);
-  kept_.renew(blocks);
+  blocks_.resize_uninitialized(blocks);
+  contact_.resize_uninitialized(blocks * width);
+  kept_.resize_uninitialized(blocks);
 }
 
 template <class T, class Law, bool spin>
@@ -121,7 +121,7 @@ template <class T, class Law, bool spin>
 template <class Problem>
 void StripProblem<T, Law, spin>::pack(const Problem& problem, const SweepPlan& plan,
                                       std::span<const std::int32_t> order, std::span<const double> r,
-                                      const TeamLoops& loops, World* world) {
+                                      const ParallelLoops& loops, World* world) {
   const int strip_count = plan.strips();
   W_ = &problem.W;
   strips_.assign(strip_count, Strip{});
@@ -132,7 +132,7 @@ void StripProblem<T, Law, spin>::pack(const Problem& problem, const SweepPlan& p
   share(order.empty() && driven_.empty() ? world : nullptr);
   const auto [first, end] = own();
   const auto pack_one = [&, first = first](int k) { pack_strip(problem, plan, order, r, first + k); };
-  (strip_count < 4 ? TeamLoops() : loops).each_of(end - first, pack_one);
+  (strip_count < 4 ? ParallelLoops() : loops).each_of(end - first, pack_one);
   if (world_ == nullptr) return;
   border_[0] = border_of(problem, plan, first);
   border_[1] = border_of(problem, plan, end);
@@ -220,7 +220,7 @@ void StripProblem<T, Law, spin>::gather_parts(std::span<double> all, std::size_t
 template <class T, class Law, bool spin>
 template <class Problem>
 void StripProblem<T, Law, spin>::unpack(const Problem& problem, bool kept, std::vector<double>& r,
-                                        const TeamLoops& loops) const {
+                                        const ParallelLoops& loops) const {
   constexpr std::size_t width = Block::width;
   const auto [first_strip, end_strip] = own();
   loops.each_of(end_strip - first_strip, [&, first_strip = first_strip](int k) {
@@ -237,7 +237,7 @@ void StripProblem<T, Law, spin>::unpack(const Problem& problem, bool kept, std::
 }
 
 template <class T, class Law, bool spin>
-void StripProblem<T, Law, spin>::rest(const TeamLoops& loops) {
+void StripProblem<T, Law, spin>::rest(const ParallelLoops& loops) {
   loops.each(bodies_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) bodies_[b].x = bodies_[b].z = bodies_[b].s = 0;
   });
@@ -327,7 +327,7 @@ ResidualEstimate StripProblem<T, Law, spin>::residual_estimate() const {
 }
 
 template <class T, class Law, bool spin>
-double StripProblem<T, Law, spin>::summed_impulses(const TeamLoops& loops) {
+double StripProblem<T, Law, spin>::summed_impulses(const ParallelLoops& loops) {
   impulses_of_strips_.assign(strips(), 0.0);
   const auto [first, end] = own();
   loops.each_of(end - first, [&, first = first](int k) {
@@ -353,9 +353,9 @@ void StripProblem<T, Law, spin>::keep_driven() {
   template class StripProblem<T, Law, spin>;                                                             \
   template void StripProblem<T, Law, spin>::pack(const Problem&, const SweepPlan&,                       \
                                                  std::span<const std::int32_t>, std::span<const double>, \
-                                                 const TeamLoops&, World*);                              \
+                                                 const ParallelLoops&, World*);                          \
   template void StripProblem<T, Law, spin>::unpack(const Problem&, bool, std::vector<double>&,           \
-                                                   const TeamLoops&) const;
+                                                   const ParallelLoops&) const;
 #define DRUMLIN_INSTANTIATE_BOTH(Problem, Law, spin) \
   DRUMLIN_INSTANTIATE(double, Law, spin, Problem)    \
   DRUMLIN_INSTANTIATE(float, Law, spin, Problem)

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "particles/contact/sweep_plan.hpp"
-#include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/parallel_loops.hpp"
 #include "particles/parallel/work_memory.hpp"
 #include "particles/parallel/world.hpp"
 #include "particles/solver/driven_contacts.hpp"
+#include "particles/solver/pipelined_sweeps.hpp"
 #include "particles/solver/sweep_kernels.hpp"
-#include "particles/solver/sweep_wave.hpp"
 
 namespace drumlin::particles {
 
@@ -23,7 +23,7 @@ class StripProblem {
   static constexpr int dim = Law::unknowns;
   using Kernels = SweepKernels<T, Law, spin>;
   using Block = ContactBlock<T, Law>;
-  static constexpr int sum_slots = 2 * longest_wave;
+  static constexpr int sum_slots = 2 * longest_pipeline;
   /// Parts of about as many blocks each, whatever the number of threads and ranks; ranks have whole parts.
   static constexpr int parts = 16;
 
@@ -37,14 +37,14 @@ class StripProblem {
   /// another order, those of driven walls and small problems are left to each of them.
   template <class Problem>
   void pack(const Problem& problem, const SweepPlan& plan, std::span<const std::int32_t> order,
-            std::span<const double> r, const TeamLoops& loops, World* world = nullptr);
+            std::span<const double> r, const ParallelLoops& loops, World* world = nullptr);
   /// Impulses in the order of the problem, held to their cones, which single precision oversteps by a
   /// rounding. `kept`: those of the last keep().
   template <class Problem>
-  void unpack(const Problem& problem, bool kept, std::vector<double>& r, const TeamLoops& loops) const;
+  void unpack(const Problem& problem, bool kept, std::vector<double>& r, const ParallelLoops& loops) const;
 
   /// Lets the bodies rest: they are loaded anew after it.
-  void rest(const TeamLoops& loops);
+  void rest(const ParallelLoops& loops);
 
   int strips() const { return static_cast<int>(strips_.size()); }
   int rank() const { return rank_; }
@@ -90,7 +90,7 @@ class StripProblem {
   void estimate_residual(int strip, int phase);
   ResidualEstimate residual_estimate() const;
   /// Sum of the impulses of the bodies as they stand.
-  double summed_impulses(const TeamLoops& loops);
+  double summed_impulses(const ParallelLoops& loops);
   /// Keeps the impulses of a strip, and those of driven walls.
   void keep(int strip);
   void keep_driven();
@@ -156,7 +156,7 @@ class StripProblem {
   WorkArray<std::int32_t> contact_;   // of each position in the blocks; -1: filled up
   WorkArray<BodyRecord<T>> bodies_, before_;
   WorkArray<std::int32_t> place_;                // of each body in bodies_
-  std::vector<double> step_squares_[sum_slots];  // of each slice, of the sweeps of two waves
+  std::vector<double> step_squares_[sum_slots];  // of each slice, of the sweeps of two pipelines
   std::vector<ResidualEstimate> estimates_;      // of each slice
   WorkArray<Impulses> kept_;                     // of each block
   std::vector<DrivenContact<Law>> driven_;

@@ -8,20 +8,22 @@
 
 #include "particles/solver/contact_solver.hpp"
 #include "particles/solver/momentum.hpp"
+#include "particles/solver/pipelined_sweeps.hpp"
 #include "particles/solver/solve_end.hpp"
-#include "particles/solver/sweep_wave.hpp"
 
 namespace drumlin::particles {
 
-/// Problems of fewer contacts, which the caches hold, take one sweep at a time; larger ones `longest_wave`.
-inline constexpr int least_contacts_of_waves = 30000;
+/// Problems of fewer contacts, which the caches hold, take one sweep at a time; larger ones
+/// `longest_pipeline`.
+inline constexpr int least_pipelined_contacts = 30000;
 
 /// Where a solve in strips stands between two rounds of sweeps.
 template <class T>
 struct SweepState {
   int sweeps = 0;
-  int wave = 1;   ///< sweeps at once: momentum goes on through a wave and is judged by its steps afterwards
-  int waves = 0;  ///< done
+  int pipeline =
+      1;  ///< sweeps at once: momentum goes on through a pipeline and is judged by its steps afterwards
+  int pipelines = 0;  ///< done
   Momentum momentum;
   T beta = 0;
   bool finite = true;
@@ -32,7 +34,7 @@ struct SweepState {
   bool keep = false;       ///< the impulses that it left are the best so far
 };
 
-/// A thread of a team, of which so many work and so many are.
+/// A thread of a pool, of which so many work and so many are.
 struct TeamPlace {
   int thread = 0, threads = 1, size = 1;
 };
@@ -52,7 +54,7 @@ void load_share(Strips& strips, const StripShare& share, bool first_thread, Meet
 }
 
 /// Sweeps on to `until` and, where it is due, computes the residuals of the strips; one thread's share of a
-/// team, which meets the others by calling join().
+/// pool, which meets the others by calling join().
 template <class T, class Strips, class Join>
 void sweep_share(Strips& strips, const TeamPlace& at, int until, bool last, SweepExtrapolation how,
                  const SolveEnd& end, SweepState<T>& state, Join join) {
@@ -68,15 +70,16 @@ void sweep_share(Strips& strips, const TeamPlace& at, int until, bool last, Swee
   SweepState<T> own = state;
   if (!std::exchange(own.loaded, true)) load_share(strips, share, first_thread, meet);
   while (own.sweeps < until && own.finite) {
-    const int sweeps = std::min(own.wave, until - own.sweeps), slots = own.waves++ % 2 * longest_wave;
-    std::array<T, longest_wave> betas{own.beta};
+    const int sweeps = std::min(own.pipeline, until - own.sweeps),
+              slots = own.pipelines++ % 2 * longest_pipeline;
+    std::array<T, longest_pipeline> betas{own.beta};
     Momentum expected = own.momentum;
     for (int s = 1; s < sweeps; ++s) betas[s] = static_cast<T>(expected.next_of_falling());
     const auto part = [&](int s, int strip, int phase) {
       if (s == 0 && phase == 0 && own.keep) strips.keep(strip);
       strips.sweep(strip, phase, slots + s, betas[s], how);
     };
-    sweep_wave(share, sweeps, part, meet);
+    pipelined_sweeps(share, sweeps, part, meet);
     own.keep = false;
 
     if (strips.has_driven()) {
@@ -106,7 +109,7 @@ void sweep_share(Strips& strips, const TeamPlace& at, int until, bool last, Swee
 /// into the square of the relative residual.
 template <class Problem, class Strips>
 double pack_in_strips(const Problem& problem, SolverWorkspace<Problem>& work, Strips& strips,
-                      Solution<Problem>& solution, TeamLoops& loops) {
+                      Solution<Problem>& solution, ParallelLoops& loops) {
   solution.impulses.resize(problem.q.size());
   auto& own = work.strips;
   own.order.clear();
@@ -128,7 +131,7 @@ bool wants_coarse_loads(const Problem& problem, const SolverWorkspace<Problem>& 
 /// Corrects the impulses of the strips on a coarse grid, laid out anew if this is the `first` time.
 template <class T, class Problem, class Strips>
 void correct_loads(const Problem& problem, SolverWorkspace<Problem>& work, Strips& strips, bool first,
-                   const TeamLoops& loops, SweepState<T>& state) {
+                   const ParallelLoops& loops, SweepState<T>& state) {
   if constexpr (is_plain<typename Problem::Law>) {
     const auto [first_strip, end_strip] = strips.own();
     if (std::exchange(state.keep, false))
@@ -149,8 +152,8 @@ void correct_loads(const Problem& problem, SolverWorkspace<Problem>& work, Strip
 template <class T, class Problem, class Strips>
 SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, SolverWorkspace<Problem>& work,
                             Strips& strips, Solution<Problem>& solution, bool accelerated) {
-  TeamLoops loops(work.team);
-  const WorkMemory::Frame frame(work.memory);
+  ParallelLoops loops(work.pool);
+  const WorkMemory::Scope scope(work.memory);
   strips.use(work.memory);
   SolveEnd::Kind kind;
   kind.time_step = problem.time_step, kind.rounding = problem.rounding;
@@ -162,11 +165,11 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   kind.limits_sinking = std::isfinite(rule.sinking) && !strips.has_driven();
   SolveEnd end(rule, kind);
   // Below four strips a second thread costs more than it saves.
-  ThreadTeam* team = strips.strips() >= 4 * strips.ranks() ? work.team : nullptr;
+  ThreadPool* pool = strips.strips() >= 4 * strips.ranks() ? work.pool : nullptr;
   SweepState<T> state;
   state.momentum = Momentum(rule.tolerance, static_cast<std::size_t>(problem.contacts()));
-  if (accelerated && !strips.has_driven() && problem.contacts() >= least_contacts_of_waves)
-    state.wave = longest_wave;
+  if (accelerated && !strips.has_driven() && problem.contacts() >= least_pipelined_contacts)
+    state.pipeline = longest_pipeline;
   const SweptBlocks blocks{[&] {
                              strips.gather_estimates();
                              return strips.residual_estimate();
@@ -186,10 +189,10 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
     }
     const int until = end.next_round(state.sweeps);
     const bool last = end.last(until);
-    if (team)
-      team->run([&](int t, int threads) {
-        sweep_share(strips, {t, threads, team->size()}, until, last, kind.how, end, state,
-                    [=] { team->meet(); });
+    if (pool)
+      pool->run([&](int t, int threads) {
+        sweep_share(strips, {t, threads, pool->size()}, until, last, kind.how, end, state,
+                    [=] { pool->barrier(); });
       });
     else
       sweep_share(strips, {}, until, last, kind.how, end, state, [] {});

@@ -77,7 +77,7 @@ HWY_INLINE contact_law::ContactFrame<hn::Vec<Lanes<T>>> frame_of(const ContactBl
                                                                  std::size_t k) {
   const Lanes<T> d;
   const auto n_x = hn::Load(d, &block.n_x[k]), n_z = hn::Load(d, &block.n_z[k]);
-  if constexpr (Law::unknowns == 3) return {n_x, n_z, hn::Load(d, &block.lever[k])};
+  if constexpr (Law::unknowns == 3) return {n_x, n_z, hn::Load(d, &block.radius_ratio[k])};
   return {n_x, n_z, hn::Zero(d)};
 }
 
@@ -100,7 +100,7 @@ HWY_INLINE auto inverse_block(const ContactBlock<T, Law>& block, std::size_t k, 
   W.nn = hn::Load(d, &block.inverse_W_nn[k]);
   if constexpr (Law::unknowns >= 2) W.tt = W.nn * hn::Set(d, T(1) / T(tangential_gain<spin>));
   if constexpr (Law::unknowns == 3) {
-    const auto turns = contact_law::turns_of(hn::Load(d, &block.lever[k]), I, J);
+    const auto turns = contact_law::turns_of(hn::Load(d, &block.radius_ratio[k]), I, J);
     W.rr = hn::Load(d, &block.inverse_W_rr[k]), W.tr = turns[1] - turns[0];
     W.tt_reduced = hn::Load(d, &block.inverse_W_tt[k]);
   }
@@ -220,10 +220,11 @@ HWY_INLINE auto inverse_eigenvalue(const ContactBlock<T, Law>& block, std::size_
     return hn::Load(d, &block.inverse_W_nn[k]) *
            hn::Set(d, T(1) / T(tangential_gain < Law::unknowns == 2 && spin >));
   } else {
-    const auto w = I.inverse_mass + J.inverse_mass, lever = hn::Load(d, &block.lever[k]);
-    const auto turns = contact_law::turns_of(lever, I, J);
+    const auto w = I.inverse_mass + J.inverse_mass, radius_ratio = hn::Load(d, &block.radius_ratio[k]);
+    const auto turns = contact_law::turns_of(radius_ratio, I, J);
     const auto largest = contact_law::larger_eigenvalue(
-        w + (w + w), turns[1] - turns[0], lever * turns[0] + (hn::Set(d, T(1)) - lever) * turns[1]);
+        w + (w + w), turns[1] - turns[0],
+        radius_ratio * turns[0] + (hn::Set(d, T(1)) - radius_ratio) * turns[1]);
     // Positions that are filled up have none.
     return hn::Set(d, T(1)) / hn::Max(largest, hn::Set(d, T(1e-15)));
   }

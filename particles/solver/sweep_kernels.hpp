@@ -20,13 +20,13 @@ struct CoefficientsOfBlock {
 };
 template <class T>
 struct CoefficientsOfBlock<T, 0> {};
-/// `lever` as in DiscDelassus; with W = (W_tt W_tr; W_tr W_rr), `inverse_W_rr` is 1 / W_rr and
+/// `radius_ratio` as in DiscDelassus; with W = (W_tt W_tr; W_tr W_rr), `inverse_W_rr` is 1 / W_rr and
 /// `inverse_W_tt` that of W_tt - W_tr^2 / W_rr, friction with the couple eliminated.
 template <class T, int dim>
 struct CoupleOfBlock {};
 template <class T>
 struct CoupleOfBlock<T, 3> {
-  std::array<T, 8> lever, inverse_W_rr, inverse_W_tt;
+  std::array<T, 8> radius_ratio, inverse_W_rr, inverse_W_tt;
 };
 
 /// Eight contacts that share no body.

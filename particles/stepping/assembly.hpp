@@ -10,7 +10,7 @@
 #include "particles/effects/driven_walls.hpp"
 #include "particles/effects/friction.hpp"
 #include "particles/effects/spin.hpp"
-#include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/parallel_loops.hpp"
 #include "particles/parallel/work_memory.hpp"
 #include "particles/stepping/cell_step.hpp"
 #include "particles/stepping/step_contacts.hpp"
@@ -80,10 +80,10 @@ void assemble_contact(const StepInput& step, const Candidate& pair, int a, Probl
   }
   if constexpr (dim == 3) {
     each_law(laws, [&](const auto& law) {
-      if constexpr (requires { law.lever(pair, bodies); }) {
-        const double lever = law.lever(pair, bodies);
-        problem.W.set(a, pair.i, second, pair.n_x, pair.n_z, lever);
-        problem.q[dim * a + 2] = law.couple_velocity(pair, bodies, step.walls, lever, step.time_step);
+      if constexpr (requires { law.radius_ratio(pair, bodies); }) {
+        const double radius_ratio = law.radius_ratio(pair, bodies);
+        problem.W.set(a, pair.i, second, pair.n_x, pair.n_z, radius_ratio);
+        problem.q[dim * a + 2] = law.couple_velocity(pair, bodies, step.walls, radius_ratio, step.time_step);
       }
     });
   } else {
@@ -92,7 +92,7 @@ void assemble_contact(const StepInput& step, const Candidate& pair, int a, Probl
   if constexpr (dim >= 2) {
     const auto sliding = [&](const Point& velocity) {
       const double u_t = tangential_part(pair, velocity);
-      return Problem::Delassus::spin ? sliding_of_rims(u_t, pair, bodies) : u_t;
+      return Problem::Delassus::spin ? surface_sliding(u_t, pair, bodies) : u_t;
     };
     problem.q[dim * a + 1] = sliding(u);
     double* const mu = &problem.mu[Problem::Law::coefficients * a];
@@ -108,7 +108,7 @@ void assemble_contact(const StepInput& step, const Candidate& pair, int a, Probl
 
 /// Of the velocities in q: those that rounding of positions and velocities leaves there stay below a
 /// ten-thousandth of it.
-inline double rounding_of(const StepInput& step, const TeamLoops& loops) {
+inline double rounding_of(const StepInput& step, const ParallelLoops& loops) {
   struct Largest {
     double place = 0, speed = 0;
     void add(const Largest& more) {
@@ -127,11 +127,12 @@ inline double rounding_of(const StepInput& step, const TeamLoops& loops) {
 
 /// Writes the problem in the order of the contacts.
 template <class Problem>
-void assemble(const StepInput& step, const StepContacts& contacts, const TeamLoops& loops, Problem& problem) {
+void assemble(const StepInput& step, const StepContacts& contacts, const ParallelLoops& loops,
+              Problem& problem) {
   constexpr int dim = Problem::dim;
   const std::size_t count = contacts.pairs.size();
   assemble_bodies(step, problem);
-  problem.W.renew(count);
+  problem.W.resize_uninitialized(count);
   resize_closely(problem.q, dim * count);
   resize_closely(problem.mu, Problem::Law::coefficients * count);
   problem.time_step = step.time_step, problem.rounding = rounding_of(step, loops);

@@ -23,9 +23,9 @@ Point cell_answer(const Problem& problem, const Velocities& bodies) {
 }
 
 /// Keeps what the impacts of a step push the cell with; it answers in the next step.
-inline void set_struck(std::span<const Strike> strikes, const Bodies& bodies, CellState& cell) {
+inline void set_collided(std::span<const ImpactImpulse> impacts, const Bodies& bodies, CellState& cell) {
   cell.struck_x = cell.struck_z = 0;
-  for (const Strike& s : strikes) {
+  for (const ImpactImpulse& s : impacts) {
     const Point arm = arm_of(bodies, s.i, s.j, 0, {s.n_x, s.n_z});
     cell.struck_x += arm.x * (s.n_x * s.normal + s.n_z * s.tangential);
     cell.struck_z += arm.z * (s.n_z * s.normal - s.n_x * s.tangential);

@@ -69,14 +69,15 @@ void add_contact_work(const StepInput& step, const StepContacts& contacts, const
     add_work(r_n * u_n, ledger.impacts, ledger);
     if constexpr (dim >= 2) {
       const double u_t = tangential_part(pair, u);
-      add_work(r_t * (mean.spin.empty() ? u_t : sliding_of_rims(u_t, pair, mean)), ledger.friction, ledger);
+      add_work(r_t * (mean.spin.empty() ? u_t : surface_sliding(u_t, pair, mean)), ledger.friction, ledger);
     }
     const auto add_law_work = [&](const auto& law, std::optional<double>& work) {
       if constexpr (requires { law->attraction(pair, step.materials()); })
         if (law) add_work(-step.time_step * law->attraction(pair, step.materials()) * u_n, *work, ledger);
-      if constexpr (dim == 3 && requires { law->lever(pair, mean); }) {
-        const double lever = law->lever(pair, mean);
-        add_work(r_c * law->couple_velocity(pair, mean, step.walls, lever, step.time_step), *work, ledger);
+      if constexpr (dim == 3 && requires { law->radius_ratio(pair, mean); }) {
+        const double radius_ratio = law->radius_ratio(pair, mean);
+        add_work(r_c * law->couple_velocity(pair, mean, step.walls, radius_ratio, step.time_step), *work,
+                 ledger);
         add_work(r_c * law->wall_part(pair, mean, step.walls, step.time_step), ledger.walls, ledger);
       }
     };

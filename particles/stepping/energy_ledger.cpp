@@ -50,11 +50,12 @@ void StepEnergy::open(const Bodies& bodies, std::optional<EnergyLedger>& ledger)
   ledger->potential = ledger->potential_at_start = potential(bodies);
 }
 
-void StepEnergy::strike(std::span<const StruckGrain> struck, const ImpactWork& work, EnergyLedger& ledger) {
+void StepEnergy::add_impacts(std::span<const CollidedGrain> collided, const ImpactWork& work,
+                             EnergyLedger& ledger) {
   add_work(work.normal, ledger.impacts, ledger);
   add_work(work.tangential, ledger.friction, ledger);
   add_work(work.walls, mover(ledger), ledger);
-  for (const StruckGrain& grain : struck) {
+  for (const CollidedGrain& grain : collided) {
     before_.v_x[grain.grain] += grain.v_x, before_.v_z[grain.grain] += grain.v_z;
     before_.x[grain.grain] += grain.shift.x, before_.z[grain.grain] += grain.shift.z;
     if (!before_.spin.empty()) before_.spin[grain.grain] += grain.spin;

@@ -52,7 +52,7 @@ class StepEnergy {
   /// Remembers the grains at the beginning of a step; the first time also where the ledger starts.
   void open(const Bodies&, std::optional<EnergyLedger>& ledger);
   /// Adds the impacts of the step, which come before its contacts.
-  void strike(std::span<const StruckGrain>, const ImpactWork&, EnergyLedger&);
+  void add_impacts(std::span<const CollidedGrain>, const ImpactWork&, EnergyLedger&);
   /// The grains at the beginning of the step, with what impacts have changed.
   const Bodies& before() const { return before_; }
   /// Adds that of gravity once the grains have been moved, before the position projection.

@@ -26,7 +26,7 @@ Period period_of(const ExchangeInput& in) {
 }
 
 /// Contacts of kept grains, with their new indices.
-void keep_contacts(std::span<const std::uint8_t> keep, int dim, ContactMemory& memory) {
+void keep_contacts(std::span<const std::uint8_t> keep, int dim, ImpulseCache& memory) {
   std::vector<std::int32_t> place(keep.size(), -1);
   std::int32_t kept_bodies = 0;
   for (std::size_t b = 0; b < keep.size(); ++b)

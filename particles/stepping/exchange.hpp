@@ -10,7 +10,7 @@
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/walls.hpp"
 #include "particles/scene/scene.hpp"
-#include "particles/stepping/contact_memory.hpp"
+#include "particles/stepping/impulse_cache.hpp"
 
 namespace drumlin::particles {
 
@@ -55,7 +55,7 @@ struct ExchangeInput {
 };
 struct ExchangeState {
   Bodies& bodies;
-  ContactMemory& memory;
+  ImpulseCache& memory;
   Traffic& traffic;
   std::vector<EarlierPlaces> marks;  ///< a new grain came to its position at its velocity
 };

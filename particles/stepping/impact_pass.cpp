@@ -26,7 +26,7 @@ void move(ImpactBody& body, double p_x, double p_z, double tangential) {
     p_x *= body.inverse_mass, p_z *= body.inverse_mass;
   }
   body.v_x += p_x, body.v_z += p_z;
-  if (body.spins) body.rim -= rim_gain * body.inverse_mass * tangential;
+  if (body.spins) body.rim -= surface_gain * body.inverse_mass * tangential;
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ PathShift Impacts::shift(std::int32_t body) const {
   return shift.empty() || body >= grains() ? PathShift{} : shift[body];
 }
 
-double Impacts::struck_at(const Candidate& pair) const {
+double Impacts::collided_at(const Candidate& pair) const {
   const std::int32_t second = second_body_of(pair);
   return std::max(shift(pair.i).time, second < 0 ? 0 : shift(second).time);
 }
@@ -151,8 +151,8 @@ bool Impacts::find_closings(std::span<const char> of_bodies) {
         if (stays_apart(step, pair) || (pair.gap <= 0 && rests(a, u_n + gain))) continue;
       }
       const PairPath path = path_of(pair);
-      const auto time = path.meeting(struck_at(pair), h);
-      if (time && strikes(a, path, path.at(*time), *time, true)) list.pairs.push_back(a);
+      const auto time = path.meeting(collided_at(pair), h);
+      if (time && collides(a, path, path.at(*time), *time, true)) list.pairs.push_back(a);
     }
     return list;
   };
@@ -170,8 +170,8 @@ bool Impacts::rests(std::int32_t a, double u_n) const {
   return -u_n <= 2 * load * W_nn;
 }
 
-bool Impacts::strikes(std::int32_t a, const PairPath& path, const Surfaces& now, double time,
-                      bool may_be_alone) {
+bool Impacts::collides(std::int32_t a, const PairPath& path, const Surfaces& now, double time,
+                       bool may_be_alone) {
   const StepInput& step = in_->step;
   const Candidate& pair = in_->pairs[a];
   const Point u = path.velocity(time), g = step.laws.gravity.value_or(Point{});
@@ -190,7 +190,7 @@ void Impacts::link() {
   met_.assign(pairs.size(), 0);
   in_pass_.assign(pairs.size(), 0);
   first_.assign(place_.size(), -1);
-  next_.renew(2 * pairs.size());
+  next_.resize_uninitialized(2 * pairs.size());
   std::int32_t *const first = first_.data(), *const next = next_.data();
   const auto enter = [=](std::int32_t body, std::int32_t entry) {
     next[entry] = first[body];
@@ -213,7 +213,7 @@ void Impacts::schedule(std::int32_t a, double from) {
   const PairPath path = path_of(pair);
   if (pair.j >= 0 && path.parts(from)) return;
   const auto time = path.meeting(from, in_->step.time_step);
-  if (!time || !strikes(a, path, path.at(*time), *time, false)) return;
+  if (!time || !collides(a, path, path.at(*time), *time, false)) return;
   if (met_[a] >= most()) {
     unresolved_ += met_[a]++ == most_impacts && restitution_of(pair) > 0;  // at 0 nothing of it is lost
     return;
@@ -289,7 +289,7 @@ bool Impacts::take_in_neighbours(double time) {
         const PairPath path = path_of(in_->pairs[a]);
         if (in_->pairs[a].j >= 0 && path.parts(time)) return;
         const Surfaces now = path.at(time);
-        if (now.gap <= touching && strikes(a, path, now, time, false)) add(a, now, time);
+        if (now.gap <= touching && collides(a, path, now, time, false)) add(a, now, time);
       });
     }
   return pass_.contacts.size() > before;
@@ -300,11 +300,11 @@ void Impacts::list_strikes(StepContacts& contacts) {
     if (c.normal == 0) continue;
     ++count_;
     const Candidate& pair = in_->pairs[c.pair];
-    contacts.strikes.push_back({pair.i, pair.j, c.n_x, c.n_z, c.normal, c.tangential});
+    contacts.impacts.push_back({pair.i, pair.j, c.n_x, c.n_z, c.normal, c.tangential});
   }
 }
 
-void Impacts::strike(const Event& event, StepContacts& contacts) {
+void Impacts::collide(const Event& event, StepContacts& contacts) {
   pass_.begin(event.time);
   ++passes_;
   add(event.pair, path_of(in_->pairs[event.pair]).at(event.time), event.time);
@@ -340,29 +340,30 @@ void Impacts::give_back(const ImpactOutput& output) {
     }
     const std::int32_t b = body.body;
     PathShift& shift = output.shift[b];
-    StruckGrain struck{b, change.x, change.z, 0, before, {body.shift.x - shift.x, body.shift.z - shift.z}};
+    CollidedGrain collided{b, change.x, change.z,
+                           0, before,   {body.shift.x - shift.x, body.shift.z - shift.z}};
     shift = body.shift;
     bodies.v_x[b] = body.v_x, bodies.v_z[b] = body.v_z;
     if (body.spins) {
       const double spin = body.rim / bodies.radius[b];
-      struck.spin = spin - bodies.spin[b];
+      collided.spin = spin - bodies.spin[b];
       bodies.spin[b] = spin;
     }
-    struck_.push_back(struck);
+    collided_.push_back(collided);
   }
 }
 
 bool Impacts::go_on(const ImpactInput& input) {
-  if (!input.step.driven.empty()) return true;  // walls have been struck too
+  if (!input.step.driven.empty()) return true;  // walls have been collided too
   begin(input);
-  is_struck_.assign(input.step.bodies.count(), 0);
-  for (const StruckGrain& struck : struck_) is_struck_[struck.grain] = 1;
-  return find_closings(is_struck_);
+  has_collided_.assign(input.step.bodies.count(), 0);
+  for (const CollidedGrain& collided : collided_) has_collided_[collided.grain] = 1;
+  return find_closings(has_collided_);
 }
 
 void Impacts::resolve(const ImpactInput& input, const ImpactOutput& output) {
   begin(input);
-  struck_.clear(), events_.clear();
+  collided_.clear(), events_.clear();
   work_ = {};
   count_ = unresolved_ = passes_ = 0;
   if (!find_closings()) return;
@@ -372,12 +373,12 @@ void Impacts::resolve(const ImpactInput& input, const ImpactOutput& output) {
     const Point u = path_of(pair).velocity(0);
     slowest_ = std::max(slowest_, -rounding * (pair.n_x * u.x + pair.n_z * u.z));
   }
-  for (const std::int32_t a : closings_) schedule(a, struck_at(in_->pairs[a]));
+  for (const std::int32_t a : closings_) schedule(a, collided_at(in_->pairs[a]));
   while (!events_.empty()) {
     std::pop_heap(events_.begin(), events_.end(), std::greater<>());
     const Event event = events_.back();
     events_.pop_back();
-    if (event.passes == passes_of(in_->pairs[event.pair])) strike(event, output.contacts);
+    if (event.passes == passes_of(in_->pairs[event.pair])) collide(event, output.contacts);
   }
   give_back(output);
 }

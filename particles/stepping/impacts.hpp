@@ -12,18 +12,18 @@
 #include <vector>
 
 #include "particles/bodies/bodies.hpp"
-#include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/parallel_loops.hpp"
 #include "particles/parallel/work_memory.hpp"
-#include "particles/stepping/contact_memory.hpp"
+#include "particles/stepping/impulse_cache.hpp"
 #include "particles/stepping/impact_pass.hpp"
 #include "particles/stepping/meeting.hpp"
 #include "particles/stepping/step_contacts.hpp"
 
 namespace drumlin::particles {
 
-/// A grain that impacts have struck: the changes of its velocities and of its shift (FreeMotion), and its
+/// A grain that impacts have collided: the changes of its velocities and of its shift (FreeMotion), and its
 /// velocity before.
-struct StruckGrain {
+struct CollidedGrain {
   std::int32_t grain = 0;
   double v_x = 0, v_z = 0, spin = 0;
   Point before;
@@ -35,12 +35,12 @@ struct StruckGrain {
 struct ImpactInput {
   const StepInput& step;
   std::span<const Candidate> pairs;
-  const RememberedLoads& loads;
+  const SavedLoads& loads;
   std::span<const double> wall_jumps;  ///< what impacts have added to the velocity of each driven wall
 };
 
 /// What they change: velocities and spins of the bodies, those of the step, the shifts of its free motion,
-/// the velocities of driven walls; strikes are added to.
+/// the velocities of driven walls; impacts are added to.
 struct ImpactOutput {
   Bodies& bodies;
   std::vector<PathShift>& shift;
@@ -50,8 +50,8 @@ struct ImpactOutput {
 /// Resolves the impacts of steps; keeps workspace only, and does nothing in a step without impacts.
 class Impacts {
  public:
-  /// Lets a team share the work; the result does not depend on it.
-  void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
+  /// Lets a pool share the work; the result does not depend on it.
+  void use(ThreadPool* pool) { loops_ = ParallelLoops(pool); }
   /// Takes the pairs of each body from a memory, in the frame that is open in resolve().
   void use(WorkMemory* memory) {
     first_.use(memory), next_.use(memory), met_.use(memory), in_pass_.use(memory);
@@ -59,11 +59,11 @@ class Impacts {
   void resolve(const ImpactInput& input, const ImpactOutput& output);
 
   /// Whether it would have anything to do once more, after a search for more pairs: only at grains that the
-  /// last call struck.
+  /// last call collided.
   bool go_on(const ImpactInput& input);
 
   // Of the last call of resolve().
-  std::span<const StruckGrain> struck() const { return struck_; }
+  std::span<const CollidedGrain> collided() const { return collided_; }
   const ImpactWork& work() const { return work_; }
   /// Pairs that met, counted once per impact.
   int count() const { return count_; }
@@ -71,7 +71,7 @@ class Impacts {
   int unresolved() const { return unresolved_; }
 
  private:
-  /// A pair that meets at a time, if neither side has been struck since that was found.
+  /// A pair that meets at a time, if neither side has been collided since that was found.
   struct Event {
     double time = 0;
     std::int32_t pair = 0;
@@ -94,8 +94,8 @@ class Impacts {
   Point velocity_before(std::int32_t body) const;
   Point velocity(std::int32_t body) const;
   PathShift shift(std::int32_t body) const;
-  /// When a side of a pair was struck last within the step.
-  double struck_at(const Candidate& pair) const;
+  /// When a side of a pair was collided last within the step.
+  double collided_at(const Candidate& pair) const;
   int passes_of(const Candidate& pair) const;
   /// Velocity that forces give a body in a unit of time.
   Point acceleration_of(std::int32_t body) const;
@@ -104,7 +104,7 @@ class Impacts {
   Point prescribed_velocity(const Candidate& pair) const;
   PairPath path_of(const Candidate& pair) const;
   /// Whether pair a, with these surfaces at a time on its path, closes there fast enough for an impact.
-  bool strikes(std::int32_t a, const PairPath& path, const Surfaces& now, double time, bool may_be_alone);
+  bool collides(std::int32_t a, const PairPath& path, const Surfaces& now, double time, bool may_be_alone);
   bool rests(std::int32_t a, double u_n) const;
   /// Whether a grain has no other pair than one.
   bool is_alone(std::int32_t body) const;
@@ -115,7 +115,7 @@ class Impacts {
   void schedule(std::int32_t a, double from);
   void add(std::int32_t a, const Surfaces& now, double time);
   /// One impact, with the pairs that it makes close at the same time.
-  void strike(const Event& event, StepContacts&);
+  void collide(const Event& event, StepContacts&);
   /// Takes in the touching pairs that the pass has made close; false if there are none.
   bool take_in_neighbours(double time);
   void list_strikes(StepContacts&);
@@ -133,12 +133,12 @@ class Impacts {
   std::vector<std::int32_t> place_;        // of each body among them; -1: not there
   WorkArray<std::int32_t> first_, next_;   // pairs of each body, linked
   WorkArray<std::int32_t> met_, in_pass_;  // how often each pair has met; the last impact that it was in
-  std::vector<StruckGrain> struck_;
-  std::vector<char> is_struck_;  // of each body, within go_on() alone
+  std::vector<CollidedGrain> collided_;
+  std::vector<char> has_collided_;  // of each body, within go_on() alone
   ImpactWork work_;
   int count_ = 0, unresolved_ = 0, passes_ = 0;
   double slowest_ = 0;
-  TeamLoops loops_;
+  ParallelLoops loops_;
 };
 
 }  // namespace drumlin::particles

@@ -16,7 +16,7 @@ constexpr double near = 1e-2, sharpest = 0.9;
 constexpr int iterations = 4;  // of the end of the step, each of which gains an order
 
 /// Per unit of mass: the impulses along the normal halfway and its tangent that leave no velocity `u` across
-/// the wall at the end, and no sliding u_t there if friction mu suffices. `spin`: rim_gain where friction
+/// the wall at the end, and no sliding u_t there if friction mu suffices. `spin`: surface_gain where friction
 /// turns the disc, else 0.
 Point impulses(const Surfaces& halfway, const Surfaces& end, double u_n, double u_t, double mu, double spin) {
   const double c = halfway.n_x * end.n_x + halfway.n_z * end.n_z;  // n . n = t . t
@@ -52,7 +52,7 @@ std::optional<LoneStep> lone_step(const StepInput& step, const Candidate& pair, 
     const Point wall{surface.wall_v_x, surface.wall_v_z};
     const double u_n = there.n_x * (free.x - carried.x) + there.n_z * (free.z - carried.z);
     const double u_t = there.n_z * (free.x - wall.x) - there.n_x * (free.z - wall.z) - rim;
-    const Point p = impulses(halfway, there, u_n, u_t, mu, spins ? rim_gain : 0);
+    const Point p = impulses(halfway, there, u_n, u_t, mu, spins ? surface_gain : 0);
     if (!(p.x > 0)) {  // it leaves the wall, or hits an end from the side
       if (there.gap < -near) return std::nullopt;
       return LoneStep{};

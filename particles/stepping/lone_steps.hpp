@@ -10,7 +10,7 @@ namespace drumlin::particles {
 
 /// Of grains that did in the last step, too (memory), where neither an attraction nor a couple acts there.
 template <class Problem>
-void take_lone_steps(const StepInput& step, const ContactMemory& memory, StepState<Problem>& s) {
+void take_lone_steps(const StepInput& step, const ImpulseCache& memory, StepState<Problem>& s) {
   // Of the impulse on a grain: what may come from other contacts if it counts as the only one.
   constexpr double alone = 1e-9;
   constexpr int dim = Problem::dim;
@@ -42,7 +42,7 @@ void take_lone_steps(const StepInput& step, const ContactMemory& memory, StepSta
       pair.wall_v_x = lone->wall_velocity.x, pair.wall_v_z = lone->wall_velocity.z;
     }
     change.x = w * (pair.n_x * r_n + pair.n_z * r_t), change.z = w * (pair.n_z * r_n - pair.n_x * r_t);
-    if constexpr (StepState<Problem>::spin) change.s = -rim_gain * w * r_t;
+    if constexpr (StepState<Problem>::spin) change.s = -surface_gain * w * r_t;
     if (r_n > 0) s.lone.push_back({pair.i, lone->end});
   }
 }

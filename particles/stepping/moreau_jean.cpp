@@ -29,7 +29,7 @@ class MoreauJean final : public Stepper {
     search(step, state, watch, report, s_);
     solve(step, solver_, watch, report, s_);
     take_lone_steps(step, state.memory, s_);
-    remember_contacts(time_step, s_, state.memory);
+    save_contacts(time_step, s_, state.memory);
     move(step, state, walls, s_);
     (void)watch.lap();
     report.overlap = project(state, walls, report.lost, s_);
@@ -49,10 +49,10 @@ class MoreauJean final : public Stepper {
       at_walls.push_back({pair.i, -1 - pair.j, pair.n_x, pair.n_z, r.normal - s_.contacts.attraction_of(a),
                           r.tangential, r.couple});
     }
-    for (const Strike& strike : s_.contacts.strikes)
-      if (strike.j < 0)
+    for (const ImpactImpulse& impact : s_.contacts.impacts)
+      if (impact.j < 0)
         at_walls.push_back(
-            {strike.i, -1 - strike.j, strike.n_x, strike.n_z, strike.normal, strike.tangential, 0});
+            {impact.i, -1 - impact.j, impact.n_x, impact.n_z, impact.normal, impact.tangential, 0});
     return at_walls;
   }
 
@@ -66,7 +66,7 @@ class MoreauJean final : public Stepper {
       const double r_n = r.normal - s_.contacts.attraction_of(a);
       if (r_n != 0) add(s_.contacts.pairs[a], r_n, r.tangential);
     }
-    for (const Strike& strike : s_.contacts.strikes) add(strike, strike.normal, strike.tangential);
+    for (const ImpactImpulse& impact : s_.contacts.impacts) add(impact, impact.normal, impact.tangential);
     return one_for_each_pair(std::move(loaded));
   }
 

@@ -25,7 +25,7 @@
 #include "particles/parallel/world.hpp"
 #include "particles/solver/solver_names.hpp"
 #include "particles/solver/stopping_rule.hpp"
-#include "particles/stepping/contact_memory.hpp"
+#include "particles/stepping/impulse_cache.hpp"
 #include "particles/stepping/energy_ledger.hpp"
 #include "particles/stepping/lost_grain.hpp"
 #include "particles/stepping/overlap.hpp"
@@ -56,7 +56,7 @@ struct StepReport {
 /// Everything that a step changes and the next one needs.
 struct MovingState {
   Bodies& bodies;
-  ContactMemory& memory;
+  ImpulseCache& memory;
   std::span<DrivenState> driven;        ///< in the order of WallStep::driven
   std::optional<EnergyLedger>& energy;  ///< changed only if the laws ask for a ledger
   std::optional<MovingCell> cell = {};

@@ -13,7 +13,7 @@ Overlap OverlapSearch::find(const MovedContacts& contacts, const Bodies& bodies,
   const auto& pairs = contacts.pairs;
   const std::size_t pieces = (pairs.size() + piece - 1) / piece;
   plan_ = contacts.plan;
-  pairs_.renew(pairs.size());
+  pairs_.resize_uninitialized(pairs.size());
   sums_.assign(pieces, {});
   loops_.each_of(static_cast<int>(pieces), [&](int p) {
     const std::size_t begin = p * piece, end = std::min(pairs.size(), begin + piece);

@@ -10,7 +10,7 @@
 #include "particles/contact/sweep_plan.hpp"
 #include "particles/detection/candidate.hpp"
 #include "particles/effects/wall_step.hpp"
-#include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/parallel_loops.hpp"
 #include "particles/parallel/work_memory.hpp"
 #include "particles/stepping/lost_grain.hpp"
 #include "particles/stepping/position_projection.hpp"
@@ -47,8 +47,8 @@ struct MovedContacts {
 /// Looks at all pairs once more, at the end of the step; keeps workspace only.
 class OverlapSearch {
  public:
-  /// Lets a team share the work; the result does not depend on it.
-  void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
+  /// Lets a pool share the work; the result does not depend on it.
+  void use(ThreadPool* pool) { loops_ = ParallelLoops(pool); }
   /// Takes the pairs from a memory: they end with the frame of find().
   void use(WorkMemory* memory) { pairs_.use(memory); }
 
@@ -66,7 +66,7 @@ class OverlapSearch {
                              const Bodies& bodies, const WallStep& walls, const Period& period,
                              double margin);
 
-  TeamLoops loops_;
+  ParallelLoops loops_;
   WorkArray<ClosePair> pairs_;         // ClosePairs::places
   std::vector<std::int32_t> earlier_;  // ClosePairs::earlier
   std::vector<OverlapSums> sums_;      // of each piece

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "particles/effects/driven_walls.hpp"
-#include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/parallel_loops.hpp"
 #include "particles/stepping/cell_step.hpp"
 
 namespace drumlin::particles {
@@ -41,7 +41,7 @@ void PositionProjection::apply(const Movable& movable, const ClosePairs& pairs, 
                                const ProjectionRule& projection) {
   auto& [bodies, walls, driven, cell] = movable;
   if (!pairs.overlap) return;
-  const TeamLoops loops(work_.team);
+  const ParallelLoops loops(work_.pool);
   auto& W = problem_.W;
   W.inverse_mass.assign(bodies.inverse_mass.begin(), bodies.inverse_mass.end());
   W.inverse_mass.push_back(0);
@@ -49,7 +49,7 @@ void PositionProjection::apply(const Movable& movable, const ClosePairs& pairs, 
   add_driven_walls(bodies, walls, W);
   const bool gives_way = movable.cell != nullptr && movable.cell->response.pressed();
   add_cell(gives_way ? movable.cell : nullptr, W);
-  W.renew(pairs.count());
+  W.resize_uninitialized(pairs.count());
   resize_closely(problem_.q, pairs.count());
   // Named anew: clang 14 captures no structured binding.
   loops.each_of(pairs.pieces(), [&, &walls = walls](int p) {

@@ -49,7 +49,7 @@ struct Movable {
 /// force moves give way along their direction; all others stay.
 class PositionProjection {
  public:
-  void use(ThreadTeam* team) { work_.team = team; }
+  void use(ThreadPool* pool) { work_.pool = pool; }
   void use(World* world) { work_.world = world; }
   /// Takes work space from a memory.
   void use(WorkMemory* memory) { work_.memory = memory; }

@@ -6,13 +6,13 @@
 #include "particles/bodies/bodies.hpp"
 #include "particles/bodies/free_motion.hpp"
 #include "particles/effects/effects.hpp"
-#include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/parallel_loops.hpp"
 
 namespace drumlin::particles {
 
 /// Their own velocities, and what the effects make of them within a step.
 inline void set_free_motion(const Bodies& bodies, const EffectsOf<LawOf>& laws, double time_step,
-                            const TeamLoops& loops, FreeMotion& free) {
+                            const ParallelLoops& loops, FreeMotion& free) {
   free.x.resize(bodies.count()), free.z.resize(bodies.count());
   each_law(laws, [&](const auto& law) {
     if constexpr (requires { law.changes_inertia; }) free.inverse_mass = bodies.inverse_mass;

@@ -15,7 +15,7 @@
 #include "particles/effects/rotating_frame.hpp"
 #include "particles/scene/scene.hpp"
 #include "particles/scene/scene_walls.hpp"
-#include "particles/stepping/contact_memory.hpp"
+#include "particles/stepping/impulse_cache.hpp"
 #include "particles/stepping/exchange.hpp"
 #include "particles/stepping/left_grains.hpp"
 #include "particles/stepping/moreau_jean.hpp"
@@ -33,7 +33,7 @@ struct SimulationState {
   double time_at_stage_start = 0;
   double time_in_stage = 0;
   Bodies bodies;
-  ContactMemory memory;
+  ImpulseCache memory;
   std::vector<Pose> pose_at_start;  ///< of each wall, when the current stage began
   std::vector<DrivenState> driven;  ///< of each wall that the current stage drives; position since its start
   std::int64_t snapshots = 0;       ///< taken so far

@@ -74,8 +74,8 @@ bool starts_deposited(const Scene& scene) {
                      [&](const GrainGroup& group) { return deposited(group.source); });
 }
 
-ContactMemory impulses_under_weight(const Bodies& bodies, std::span<const Shape> shapes, const Period& period,
-                                    const Point& gravity, double time_step, int unknowns) {
+ImpulseCache impulses_under_weight(const Bodies& bodies, std::span<const Shape> shapes, const Period& period,
+                                   const Point& gravity, double time_step, int unknowns) {
   const std::size_t grains = bodies.count();
   const std::vector<double> rest(grains, 0.0);
   const std::vector<ShapeStep> still(shapes.size());
@@ -97,7 +97,7 @@ ContactMemory impulses_under_weight(const Bodies& bodies, std::span<const Shape>
     impulses[static_cast<std::size_t>(unknowns) * a] =
         time_step * g * overburden.above(x, z) * per_pressure / reach;
   }
-  ContactMemory memory{{}, {}, std::move(impulses), time_step};
+  ImpulseCache memory{{}, {}, std::move(impulses), time_step};
   for (const Candidate& pair : pairs) memory.i.push_back(pair.i), memory.j.push_back(pair.j);
   return memory;
 }

@@ -6,7 +6,7 @@
 #include "particles/bodies/walls.hpp"
 #include "particles/detection/cell_grid.hpp"
 #include "particles/scene/scene.hpp"
-#include "particles/stepping/contact_memory.hpp"
+#include "particles/stepping/impulse_cache.hpp"
 
 namespace drumlin::particles {
 
@@ -18,7 +18,7 @@ bool starts_deposited(const Scene& scene);
 /// sum r_n l/(2 A). They balance over long distances and not at each grain; sweeps mend that soon, but carry
 /// a load from the top of a deep bed to its bottom only a few layers at a time. `unknowns`: per contact.
 /// `gravity`: acceleration, dimensionless.
-ContactMemory impulses_under_weight(const Bodies& bodies, std::span<const Shape> shapes, const Period& period,
-                                    const Point& gravity, double time_step, int unknowns);
+ImpulseCache impulses_under_weight(const Bodies& bodies, std::span<const Shape> shapes, const Period& period,
+                                   const Point& gravity, double time_step, int unknowns);
 
 }  // namespace drumlin::particles

@@ -14,7 +14,7 @@
 namespace drumlin::particles {
 
 /// An impact of a pair (i, j), in one pass (impacts.hpp): its normal, and its impulses.
-struct Strike {
+struct ImpactImpulse {
   std::int32_t i = 0, j = 0;
   double n_x = 0, n_z = 0;
   double normal = 0, tangential = 0;
@@ -23,9 +23,9 @@ struct Strike {
 /// Pairs in solve order and, beside each, what effects keep for it. Kept from step to step: memory alone.
 struct StepContacts {
   std::vector<Candidate> pairs;
-  std::vector<double> attraction;  ///< of its surfaces, times h; empty where nothing attracts
-  std::vector<Strike> strikes;     ///< impacts of the step; empty without restitution
-  std::vector<double> wall_jumps;  ///< what they add to the velocity of each driven wall
+  std::vector<double> attraction;      ///< of its surfaces, times h; empty where nothing attracts
+  std::vector<ImpactImpulse> impacts;  ///< impacts of the step; empty without restitution
+  std::vector<double> wall_jumps;      ///< what they add to the velocity of each driven wall
 
   double attraction_of(std::size_t a) const { return attraction.empty() ? 0 : attraction[a]; }
 };

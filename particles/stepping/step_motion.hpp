@@ -38,7 +38,7 @@ template <class Problem>
 void deform_cell(const StepInput& step, const MovingState& state, StepState<Problem>& s) {
   CellState& cell = state.cell->state;
   if (step.cell.pressed()) {
-    set_struck(s.contacts.strikes, state.bodies, cell);
+    set_collided(s.contacts.impacts, state.bodies, cell);
     const Point change = cell_answer(s.problem, s.solution.velocities.bodies);
     const double before = s.energy ? kinetic_energy(state.bodies) : 0;
     change_rates_in_step(change, step.time_step, cell, state.bodies);
@@ -63,7 +63,7 @@ void move(const StepInput& step, const MovingState& state, WallStep& walls, Step
 template <class Problem>
 Overlap project(const MovingState& state, WallStep& walls, std::optional<LostGrain>& lost,
                 StepState<Problem>& s) {
-  const WorkMemory::Frame frame(&s.memory);
+  const WorkMemory::Scope scope(&s.memory);
   const StepLaws& laws = s.laws;
   const MovedContacts contacts{s.contacts.pairs, s.pair_bodies(), s.solution.impulses, Problem::dim,
                                s.problem.W.plan};

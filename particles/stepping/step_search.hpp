@@ -29,29 +29,29 @@ inline DetectionInput detection_input(const StepInput& step) {
           step.laws.period};
 }
 
-/// The grains that impacts have struck harder than the search for pairs allowed for; false if none.
+/// The grains that impacts have collided harder than the search for pairs allowed for; false if none.
 template <class Problem>
-bool find_struck(const StepInput& step, StepState<Problem>& s) {
-  s.struck.clear();
-  for (const StruckGrain& struck : s.impacts.struck()) {
-    const std::int32_t b = struck.grain;
+bool find_collided(const StepInput& step, StepState<Problem>& s) {
+  s.collided.clear();
+  for (const CollidedGrain& collided : s.impacts.collided()) {
+    const std::int32_t b = collided.grain;
     const double displacement =
         2 * step.time_step * std::hypot(s.free.x[b] - s.searched.x[b], s.free.z[b] - s.searched.z[b]);
     if (displacement <= s.detection.displacement_bound(b) + s.laws.detection_margin) continue;
-    s.struck.push_back({b, displacement});
+    s.collided.push_back({b, displacement});
     s.searched.x[b] = s.free.x[b], s.searched.z[b] = s.free.z[b];
   }
-  return !s.struck.empty();
+  return !s.collided.empty();
 }
 
 /// Finds the pairs in the memory that a search around grains has added.
 template <class Problem>
-void recollect_more(const ContactMemory& memory, StepState<Problem>& s) {
+void find_more_saved(const ImpulseCache& memory, StepState<Problem>& s) {
   const auto found = s.detection.candidates();
-  if (s.detection.added().empty()) return s.recollection.find(memory, found);
+  if (s.detection.added().empty()) return s.warm_starts.find(memory, found);
   std::vector<Candidate> added;
   for (const std::int32_t a : s.detection.added()) added.push_back(found[a]);
-  s.recollection.find_added(memory, s.detection.added(), added);
+  s.warm_starts.find_added(memory, s.detection.added(), added);
 }
 
 /// The impacts of the step, on pairs in the order in which they are found.
@@ -60,19 +60,19 @@ void resolve_impacts(const StepInput& step, const MovingState& state, Stopwatch&
                      StepState<Problem>& s) {
   s.searched.x = s.free.x, s.searched.z = s.free.z;
   for (int searches = 1;; ++searches) {
-    const auto loads = s.recollection.loads(state.memory, Problem::dim, step.time_step);
+    const auto loads = s.warm_starts.loads(state.memory, Problem::dim, step.time_step);
     const ImpactInput input{step, s.detection.candidates(), loads, s.contacts.wall_jumps};
     if (searches > 1 && !s.impacts.go_on(input)) return;
     s.impacts.resolve(input, {state.bodies, s.free.shift, s.contacts});
-    if (s.energy) s.energy->strike(s.impacts.struck(), s.impacts.work(), *state.energy);
+    if (s.energy) s.energy->add_impacts(s.impacts.collided(), s.impacts.work(), *state.energy);
     report.impacts += s.impacts.count();
     report.impacts_unresolved += s.impacts.unresolved();
     report.setup_seconds += watch.lap();
     if (s.impacts.count() == 0) return;
     move_freely(step, s);
-    if (searches == most_searches || !find_struck(step, s)) return;
-    if (s.detection.find_around(s.struck, step.bodies, s.free.x, s.free.z, detection_input(step)))
-      recollect_more(state.memory, s);
+    if (searches == most_searches || !find_collided(step, s)) return;
+    if (s.detection.find_around(s.collided, step.bodies, s.free.x, s.free.z, detection_input(step)))
+      find_more_saved(state.memory, s);
     report.detection_seconds += watch.lap();
   }
 }
@@ -98,19 +98,19 @@ void take_candidates(const StepInput& step, StepState<Problem>& s) {
 template <class Problem>
 void search(const StepInput& step, const MovingState& state, Stopwatch& watch, StepReport& report,
             StepState<Problem>& s) {
-  const WorkMemory::Frame frame(&s.memory);
-  s.contacts.strikes.clear();
+  const WorkMemory::Scope scope(&s.memory);
+  s.contacts.impacts.clear();
   s.free.shift.clear();
   s.contacts.wall_jumps.assign(step.driven.size(), 0.0);
   move_freely(step, s);
   s.detection.find(step.bodies, s.free.x, s.free.z, detection_input(step));
-  s.recollection.find(state.memory, s.detection.candidates());
+  s.warm_starts.find(state.memory, s.detection.candidates());
   report.detection_seconds += watch.lap();
   if (s.laws.restitution) resolve_impacts(step, state, watch, report, s);
   // In solve order only now: impacts may have brought more pairs together.
   s.order.find(s.detection.candidates(), step.bodies, s.laws.period, s.problem.W.plan);
   take_candidates(step, s);
-  s.recollection.warm_start(state.memory, Problem::dim, step.time_step, s.order.order(), s.solution.impulses);
+  s.warm_starts.warm_start(state.memory, Problem::dim, step.time_step, s.order.order(), s.solution.impulses);
   report.detection_seconds += watch.lap();
   turn_freely(s.laws, step.time_step, state.bodies);
   report.setup_seconds += watch.lap();

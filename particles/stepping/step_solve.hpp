@@ -56,18 +56,18 @@ void solve_pairs(const StepInput& step, ContactSolver<Problem> solver, Stopwatch
 }
 
 template <class Problem>
-void remember_contacts(double time_step, StepState<Problem>& s, ContactMemory& memory) {
-  remember(s.order.i(), s.order.j(), s.order.order(), s.solution.impulses, time_step, s.loops(), memory);
+void save_contacts(double time_step, StepState<Problem>& s, ImpulseCache& memory) {
+  save_contacts(s.order.i(), s.order.j(), s.order.order(), s.solution.impulses, time_step, s.loops(), memory);
 }
 
 /// Takes pairs in that solved contacts have brought together, with the impulses so far.
 template <class Problem>
 void take_in(const StepInput& step, std::span<const Candidate> missed, StepState<Problem>& s) {
-  const WorkMemory::Frame frame(&s.memory);
+  const WorkMemory::Scope scope(&s.memory);
   const auto order = s.order.order();
   auto& taken = s.contacts.pairs;
-  ContactMemory solved;
-  remember_contacts(step.time_step, s, solved);
+  ImpulseCache solved;
+  save_contacts(step.time_step, s, solved);
   std::vector<Candidate> pairs(taken.size() + missed.size());
   for (std::size_t a = 0; a < taken.size(); ++a) pairs[order[a]] = taken[a];
   const auto added = std::span(pairs).last(missed.size());
@@ -79,8 +79,8 @@ void take_in(const StepInput& step, std::span<const Candidate> missed, StepState
   s.order.find(pairs, step.bodies, s.laws.period, s.problem.W.plan);
   taken.resize(pairs.size());
   for (std::size_t a = 0; a < pairs.size(); ++a) taken[a] = pairs[s.order.order()[a]];
-  s.recollection.find(solved, pairs);
-  s.recollection.warm_start(solved, Problem::dim, step.time_step, s.order.order(), s.solution.impulses);
+  s.warm_starts.find(solved, pairs);
+  s.warm_starts.warm_start(solved, Problem::dim, step.time_step, s.order.order(), s.solution.impulses);
   move_freely(step, s);
 }
 

@@ -27,19 +27,19 @@ struct StepState {
   static constexpr bool spin = Problem::Delassus::spin;
 
   StepState(const StepLaws& of_scene, const StepSolver& of_step)
-      : laws(of_scene), solver(of_step), team(of_step.threads) {
-    work.team = &team, work.memory = &memory, work.world = solver.world;
+      : laws(of_scene), solver(of_step), pool(of_step.threads) {
+    work.pool = &pool, work.memory = &memory, work.world = solver.world;
     projection.use(solver.world);
     const auto share = [this](auto&... users) {
-      (users.use(&team), ...);
+      (users.use(&pool), ...);
       (users.use(&memory), ...);
     };
-    share(detection, recollection, impacts, order, overlaps, projection);
-    crossings.use(&team);
+    share(detection, warm_starts, impacts, order, overlaps, projection);
+    crossings.use(&pool);
     if (laws.energy_ledger) energy.emplace(laws.gravity);
   }
 
-  TeamLoops loops() { return TeamLoops(&team); }
+  ParallelLoops loops() { return ParallelLoops(&pool); }
   PairBodies pair_bodies() const { return {problem.W.i, problem.W.j, problem.W.fixed()}; }
   StepEnd end_of(const StepInput& step) const {
     const auto& changes = solution.velocities.bodies;
@@ -61,19 +61,19 @@ struct StepState {
 
   StepLaws laws;
   StepSolver solver;
-  ThreadTeam team;
+  ThreadPool pool;
   WorkMemory memory;  ///< of one phase of a step after the other
   // The search.
   FreeMotion free;
-  FreeMotion searched;             ///< velocities by which pairs were last looked for, grain by grain
-  std::vector<StruckDisc> struck;  ///< since then
-  std::vector<char> beside;        ///< of each grain: it has a pair with another
-  std::vector<char> shifted;       ///< of each grain: an impact moved the beginning of its path
+  FreeMotion searched;                 ///< velocities by which pairs were last looked for, grain by grain
+  std::vector<CollidedDisc> collided;  ///< since then
+  std::vector<char> beside;            ///< of each grain: it has a pair with another
+  std::vector<char> shifted;           ///< of each grain: an impact moved the beginning of its path
   ContactDetection detection;
   ContactOrder order;
   StepContacts contacts;
   Impacts impacts;
-  Recollection recollection;
+  WarmStarts warm_starts;
   // The solve.
   Problem problem;
   SolverWorkspace<Problem> work;

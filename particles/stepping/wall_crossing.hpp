@@ -14,7 +14,7 @@
 #include "particles/bodies/box_tree.hpp"
 #include "particles/bodies/period.hpp"
 #include "particles/effects/wall_step.hpp"
-#include "particles/parallel/team_loops.hpp"
+#include "particles/parallel/parallel_loops.hpp"
 #include "particles/stepping/lost_grain.hpp"
 
 namespace drumlin::particles {
@@ -28,8 +28,8 @@ struct Crossings {
 /// Remembers where discs stand when a step begins.
 class WallCrossings {
  public:
-  /// Lets a team share the work; the result does not depend on it.
-  void use(ThreadTeam* team) { loops_ = TeamLoops(team); }
+  /// Lets a pool share the work; the result does not depend on it.
+  void use(ThreadPool* pool) { loops_ = ParallelLoops(pool); }
   /// The beginning of a step, before any disc is moved. `largest`: radius of the largest disc of all, where
   /// the bodies are a part of them; without, of the bodies.
   void begin(const Bodies&, std::span<const Shape> shapes, std::optional<double> largest = {});
@@ -48,7 +48,7 @@ class WallCrossings {
   /// Lays disc b back from every thin wall that it crossed.
   void put_back(const WallStep&, const Period&, std::size_t b, Bodies&, Crossings&) const;
 
-  TeamLoops loops_;
+  ParallelLoops loops_;
   std::optional<double> largest_;
   std::vector<double> x_, z_;                   // centres at the beginning of the step
   std::vector<std::size_t> thin_, containers_;  // shapes; thin: segments and arcs

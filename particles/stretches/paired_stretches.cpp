@@ -29,7 +29,7 @@ struct Forces {
 
 Forces forces_of(const Simulation& simulation, double time_step) {
   const Bodies& bodies = simulation.state().bodies;
-  double area = 0, sum = 0, lever = 0;
+  double area = 0, sum = 0, radius_ratio = 0;
   for (const double radius : bodies.radius) area += std::numbers::pi * radius * radius;
   const auto contacts = simulation.stepper().loaded_contacts();
   for (const SnapshotContact& contact : contacts) {
@@ -37,9 +37,10 @@ Forces forces_of(const Simulation& simulation, double time_step) {
     const double r_i = bodies.radius[static_cast<std::size_t>(contact.i)];
     const double r_j = contact.j < 0 ? 0 : bodies.radius[static_cast<std::size_t>(contact.j)];
     sum += force;
-    lever += force * (r_i + r_j);
+    radius_ratio += force * (r_i + r_j);
   }
-  return {contacts.empty() ? no_value : sum / static_cast<double>(contacts.size()), lever / (2 * area)};
+  return {contacts.empty() ? no_value : sum / static_cast<double>(contacts.size()),
+          radius_ratio / (2 * area)};
 }
 
 double rms_displacement(const Bodies& from, const Bodies& to) {

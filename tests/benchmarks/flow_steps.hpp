@@ -12,7 +12,7 @@ namespace drumlin::benchmark {
 /// What Stepper::advance takes, before it is called.
 struct FlowStep {
   particles::Bodies bodies;
-  particles::ContactMemory memory;
+  particles::ImpulseCache memory;
   particles::WallStep walls;
 };
 

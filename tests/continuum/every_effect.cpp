@@ -58,7 +58,7 @@ const Effect effects[] = {
     {.name = "k",
      .add =
          [](FlowProblem& p) {
-           p.turned = TurnedStress{.k = StressRatioLaw({1e-4, 1e-2, 1e-1}, {0.96, 1.03, 1.0})};
+           p.turned = NonCoaxialStress{.k = StressRatioLaw({1e-4, 1e-2, 1e-1}, {0.96, 1.03, 1.0})};
          },
      .shows = turns_the_stress_a_little,
      .stress = 1e-4,

@@ -17,8 +17,8 @@ using namespace continuum;
 struct Manufactured {
   StressLaw law;
   Regularisation regularisation;
-  std::optional<TurnedStress> turned = {};  ///< with a given turn
-  bool turn_from_flow = false;              ///< the solver has to find that turn itself
+  std::optional<NonCoaxialStress> turned = {};  ///< with a given turn
+  bool turn_from_flow = false;                  ///< the solver has to find that turn itself
 
   static Vec2 velocity(Vec2 p) {
     const double w = 2 * p.z + 1.2;
@@ -113,7 +113,7 @@ inline FlowProblem problem_of(const Manufactured& made) {
 
 /// I runs from 0.7 to 3 in this flow, k from 0.99 to 1.04: with 0.96 .. 1.1 (0.7 to 1.3 over the same I) the
 /// law is ill-posed and Newton's method ends on the third mesh.
-inline TurnedStress some_k() { return {.k = StressRatioLaw({0.05, 20}, {0.9, 1.1})}; }
+inline NonCoaxialStress some_k() { return {.k = StressRatioLaw({0.05, 20}, {0.9, 1.1})}; }
 
 inline Manufactured of_friction_law() { return {LogLaw{0.35, 0.013}, {.shear_rate = 0.3, .pressure = 0.1}}; }
 

@@ -13,7 +13,7 @@ using namespace testing_remembering;
 using Add = void (*)(FlowProblem&);
 
 void add_k(FlowProblem& problem) {
-  problem.turned = TurnedStress{.k = StressRatioLaw({0.05, 20}, {0.7, 1.3})};
+  problem.turned = NonCoaxialStress{.k = StressRatioLaw({0.05, 20}, {0.7, 1.3})};
 }
 void add_cohesion(FlowProblem& problem) { problem.law = CohesiveLaw{0.7, 0.3, 1.1}; }
 void add_nonlocal(FlowProblem& problem) { problem.nonlocal = NonlocalFluidity{.length = 1.5}; }

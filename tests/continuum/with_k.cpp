@@ -11,7 +11,7 @@ using namespace testing_boxes;
 
 const LogLaw paper{0.35, 0.013};
 
-TurnedStress some_k() { return {.k = StressRatioLaw({1e-3, 1e-1}, {0.93, 1.07})}; }
+NonCoaxialStress some_k() { return {.k = StressRatioLaw({1e-3, 1e-1}, {0.93, 1.07})}; }
 
 TEST(PlaneShearWithK, CarriesExactlyKAndTheSameRate) {
   const double P = 4, mu = 0.2901;
@@ -37,7 +37,7 @@ TEST(PlaneShearWithK, CarriesExactlyKAndTheSameRate) {
 
 TEST(SmallDrumWithK, IsSolvedWithoutItFirst) {
   FlowProblem problem = small_drum_problem();
-  problem.turned = TurnedStress{.k = StressRatioLaw({1e-4, 1e-2, 1e-1}, {0.96, 1.03, 1.0})};
+  problem.turned = NonCoaxialStress{.k = StressRatioLaw({1e-4, 1e-2, 1e-1}, {0.96, 1.03, 1.0})};
   int seen = 0;
   double theta_without = 0;
   FlowObserver observer;

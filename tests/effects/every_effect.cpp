@@ -48,7 +48,7 @@ void expect_cost(const Scene& scene, int unknowns, int velocities) {
   EXPECT_EQ(run.stepper().unknowns_per_contact(), unknowns);
   EXPECT_EQ(run.stepper().velocities_per_body(), velocities);
   EXPECT_EQ(run.bodies().spin.empty(), velocities == 2);
-  const ContactMemory& memory = run.state().memory;
+  const ImpulseCache& memory = run.state().memory;
   while (memory.i.empty()) (void)run.step();
   EXPECT_EQ(memory.impulse.size(), unknowns * memory.i.size());
 }

@@ -118,8 +118,8 @@ TEST(RollingContact, SolversReachTheJudgeOfTheThreefoldLaw) {
   auto& W = problem.W;
   for (int b = 0; b < 8; ++b) W.inverse_mass.push_back(random.uniform(0.2, 5));
   W.inverse_mass.push_back(0);
-  const auto add = [&](int i, int j, double n_x, double n_z, double lever) {
-    W.add(i, j, n_x, n_z, lever);
+  const auto add = [&](int i, int j, double n_x, double n_z, double radius_ratio) {
+    W.add(i, j, n_x, n_z, radius_ratio);
     problem.q.insert(problem.q.end(), {random.uniform(-1, 0), random.uniform(-1, 1), random.uniform(-1, 1)});
     problem.mu.insert(problem.mu.end(), {0.4, 0.2});
   };

@@ -25,7 +25,7 @@ Scene box(Placement placement) {
 TEST(StandingStart, TheFloorCarriesTheWeight) {
   const TestRun run(box(Placement::deposited));
   const Bodies& bodies = run.bodies();
-  const ContactMemory& memory = run.state().memory;
+  const ImpulseCache& memory = run.state().memory;
   double weight = 0, on_floor = 0, left = 0, right = 0;
   for (const double inverse_mass : bodies.inverse_mass) weight += memory.time_step / inverse_mass;
   for (std::size_t a = 0; a < memory.i.size(); ++a) {

@@ -70,9 +70,9 @@ Heap heap(int columns, int rows, double mu = 0.4, bool slab = false) {
 }
 
 /// Impulses of a heap that have been scaled by 0.8 and corrected.
-std::vector<double> corrected(const Heap& heap, std::vector<double> r, ThreadTeam* team) {
+std::vector<double> corrected(const Heap& heap, std::vector<double> r, ThreadPool* pool) {
   const auto& W = heap.problem.W;
-  TeamLoops loops(team);
+  ParallelLoops loops(pool);
   for (double& entry : r) entry *= 0.8;
   StripProblem<double, Coulomb, true> strips;
   strips.pack(heap.problem, W.plan, {}, r, loops);
@@ -111,8 +111,8 @@ TEST(CoarseLoads, FindWhatAllImpulsesLack) {
   for (std::size_t a = 0; a < small.problem.mu.size(); ++a)
     EXPECT_LE(std::abs(r[2 * a + 1]), small.problem.mu[a] * r[2 * a] * (1 + 1e-12));
   for (const int threads : {2, 3, 5}) {
-    ThreadTeam team(threads);
-    EXPECT_EQ(corrected(small, solved, &team), r) << threads;
+    ThreadPool pool(threads);
+    EXPECT_EQ(corrected(small, solved, &pool), r) << threads;
   }
 }
 

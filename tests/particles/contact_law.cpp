@@ -11,7 +11,7 @@ namespace drumlin {
 using namespace particles;
 namespace {
 
-/// W_aa of contacts of discs: W_nt = 0, W_tt = 3 W_nn, and the share l of the first in the lever.
+/// W_aa of contacts of discs: W_nt = 0, W_tt = 3 W_nn, and the share l of the first in the radius_ratio.
 LocalMatrix block_of_discs(double w_i, double w_j, double l) {
   return {w_i + w_j, 0, 3 * (w_i + w_j), 2 * ((1 - l) * w_j - l * w_i),
           2 * (l * l * w_i + (1 - l) * (1 - l) * w_j)};

@@ -115,8 +115,8 @@ TEST(Detection, GivesTheSameBytesForAnyNumberOfThreads) {
   RandomStream random(12, "test");
   const Grains g = test::falling(6000, random);
   ContactDetection alone, shared;
-  ThreadTeam team(2);
-  shared.use(&team);
+  ThreadPool pool(2);
+  shared.use(&pool);
   const auto one = found(alone, g), two = found(shared, g);
   ASSERT_EQ(one.size(), two.size());
   for (std::size_t p = 0; p < one.size(); ++p) {
@@ -127,13 +127,13 @@ TEST(Detection, GivesTheSameBytesForAnyNumberOfThreads) {
   }
 }
 
-/// The pairs that a search around one struck grain adds, from all pairs: bounds as before it.
-std::set<std::pair<int, int>> around(int struck, double displacement, const Grains& g, const Period& period,
+/// The pairs that a search around one collided grain adds, from all pairs: bounds as before it.
+std::set<std::pair<int, int>> around(int collided, double displacement, const Grains& g, const Period& period,
                                      const ContactDetection& before) {
   std::set<std::pair<int, int>> pairs;
   for (int k = 0; k < static_cast<int>(g.count()); ++k) {
-    if (k == struck) continue;
-    const int i = std::min(k, struck), j = std::max(k, struck);
+    if (k == collided) continue;
+    const int i = std::min(k, collided), j = std::max(k, collided);
     double n_x = 0, n_z = 0;
     const double gap = gap_now({i, j, 0, 0, 0, 0, 0}, g.bodies, {}, period, n_x, n_z);
     const double approach = -(n_x * (g.v_x[i] - g.v_x[j]) + n_z * (g.v_z[i] - g.v_z[j]));
@@ -153,12 +153,12 @@ TEST(Detection, AddsThePairsThatAStruckGrainMayMeet) {
       std::set<std::pair<int, int>> expected;
       for (const Candidate& pair : found(detection, g, period)) expected.insert({pair.i, pair.j});
       const std::size_t known = expected.size();
-      const int struck = 700;
-      g.v_x[struck] += speed, g.v_z[struck] -= speed;
+      const int collided = 700;
+      g.v_x[collided] += speed, g.v_z[collided] -= speed;
       const double displacement = 2 * time_step * speed * std::sqrt(2.0);
-      expected.merge(around(struck, displacement, g, period, detection));
+      expected.merge(around(collided, displacement, g, period, detection));
       const DetectionInput input{{}, {}, time_step, margin, period};
-      const StruckDisc one[] = {{struck, displacement}};
+      const CollidedDisc one[] = {{collided, displacement}};
       EXPECT_TRUE(detection.find_around(one, g.bodies, g.v_x, g.v_z, input));
       EXPECT_GT(expected.size(), known);
       auto next = expected.begin();
@@ -173,13 +173,13 @@ TEST(Detection, BeginsAnewWhereMostAreStruck) {
   Grains g = packed(900, 1, 1, random);
   ContactDetection detection;
   (void)found(detection, g);
-  std::vector<StruckDisc> struck;
+  std::vector<CollidedDisc> collided;
   for (int i = 0; i < 900; ++i) {
     g.v_x[i] += random.uniform(-20, 20);
-    struck.push_back({i, 2.0});
+    collided.push_back({i, 2.0});
   }
   const DetectionInput input{{}, {}, time_step, margin, {}};
-  EXPECT_TRUE(detection.find_around(struck, g.bodies, g.v_x, g.v_z, input));
+  EXPECT_TRUE(detection.find_around(collided, g.bodies, g.v_x, g.v_z, input));
   EXPECT_EQ(detection.candidates().size(), defined(g, {}).size());
 }
 

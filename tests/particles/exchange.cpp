@@ -74,7 +74,7 @@ TEST(Outlets, LeaveImpulsesAndDisplacementsWithTheirGrains) {
   ASSERT_EQ(snapshot.displacement_x.size(), 3u);
   EXPECT_NEAR(snapshot.displacement_x[2], snapshot.velocity_window, 1e-9);
   EXPECT_NEAR(snapshot.displacement_x[0], 0, 1e-9);
-  const ContactMemory& memory = run.state().memory;
+  const ImpulseCache& memory = run.state().memory;
   for (std::size_t c = 0; c < memory.i.size(); ++c) EXPECT_LT(memory.i[c], 3);
   write_snapshot(folder.path() / "s.h5", snapshot);
   EXPECT_EQ(read_snapshot(folder.path() / "s.h5").id, snapshot.id);

@@ -68,12 +68,12 @@ std::vector<Case> cases() {
 TEST(KeptLists, FindWhatASearchFromNothingFinds) {
   const std::vector<Shape> walls = {Segment{{-2, -1}, {60, -1}}, FixedDisc{{5, 40}, 4}};
   const std::vector<ShapeStep> still(walls.size());
-  ThreadTeam team(2);
+  ThreadPool pool(2);
   for (Case& c : cases()) {
     SCOPED_TRACE(c.name);
     RandomStream random(22, "test");
     ContactDetection kept;
-    kept.use(&team);
+    kept.use(&pool);
     bool cheap = false;
     for (int step = 0; step < 60; ++step) {
       const DetectionInput input{walls, still, c.time_step, margin, c.period};
@@ -82,17 +82,17 @@ TEST(KeptLists, FindWhatASearchFromNothingFinds) {
       kept.find(c.grains.bodies, c.grains.v_x, c.grains.v_z, input);
       expect_same(kept, anew, c.grains.count());
       cheap = cheap || kept.distances() < anew.distances();
-      if (step % 3 == 0) {  // an impact strikes two grains
+      if (step % 3 == 0) {  // an impact impacts two grains
         const auto i =
             static_cast<std::int32_t>(random.uniform() * static_cast<double>(c.grains.count() - 1));
-        std::vector<StruckDisc> struck;
+        std::vector<CollidedDisc> collided;
         for (const std::int32_t b : {i, i + 1}) {
           const double v = random.uniform(-3, 3);
           c.grains.v_x[b] += v, c.grains.v_z[b] -= v;
-          struck.push_back({b, 2 * c.time_step * std::sqrt(2.0) * std::abs(v)});
+          collided.push_back({b, 2 * c.time_step * std::sqrt(2.0) * std::abs(v)});
         }
-        const bool more = anew.find_around(struck, c.grains.bodies, c.grains.v_x, c.grains.v_z, input);
-        EXPECT_EQ(kept.find_around(struck, c.grains.bodies, c.grains.v_x, c.grains.v_z, input), more);
+        const bool more = anew.find_around(collided, c.grains.bodies, c.grains.v_x, c.grains.v_z, input);
+        EXPECT_EQ(kept.find_around(collided, c.grains.bodies, c.grains.v_x, c.grains.v_z, input), more);
         expect_same(kept, anew, c.grains.count());
       }
       move(c.grains, c.time_step);

@@ -42,10 +42,10 @@ struct Row {
   PairBodies of() const { return {i, j, static_cast<std::int32_t>(bodies.count())}; }
 };
 
-void expect_found(const Row& row, ThreadTeam* team) {
+void expect_found(const Row& row, ThreadPool* pool) {
   constexpr double margin = 2e-3;
   OverlapSearch search;
-  search.use(team);
+  search.use(pool);
   std::optional<LostGrain> lost;
   const Overlap overlap =
       search.find({row.pairs, row.of(), row.impulses, 1, row.plan}, row.bodies, WallStep{}, {}, margin, lost);
@@ -87,8 +87,8 @@ TEST(OverlapSearch, FindsClosePairsAndTheirGroupsInPieces) {
     const Row row(count);
     expect_found(row, nullptr);
     for (const int threads : {2, 5}) {
-      ThreadTeam team(threads);
-      expect_found(row, &team);
+      ThreadPool pool(threads);
+      expect_found(row, &pool);
     }
   }
 }

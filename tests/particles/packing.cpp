@@ -90,7 +90,7 @@ TEST(Restart, GoesOnTheSameFromContactsInTheOrderOfASolve) {
   Simulation first(small_drum());
   while (first.state().memory.i.size() < 20) (void)first.step();
   SimulationState state = first.state();
-  ContactMemory& memory = state.memory;
+  ImpulseCache& memory = state.memory;
   std::reverse(memory.i.begin(), memory.i.end());
   std::reverse(memory.j.begin(), memory.j.end());
   for (std::size_t low = 0, high = memory.impulse.size(); low + 2 < high; low += 2) {

@@ -79,10 +79,10 @@ TEST(Residual, IsTheSameBytesForAnyTeam) {
     std::vector<double> r;
     const CoulombSpinProblem problem = chain(planned ? 60000 : 20000, planned, r);
     Velocities<CoulombSpinProblem::Delassus> velocities, alone_too;
-    TeamLoops no_team;
+    ParallelLoops no_team;
     const auto alone = residual_of(problem, std::span<const double>(r), alone_too, no_team);
-    ThreadTeam team(3);
-    TeamLoops loops(&team);
+    ThreadPool pool(3);
+    ParallelLoops loops(&pool);
     const auto shared = residual_of(problem, std::span<const double>(r), velocities, loops);
     EXPECT_EQ(alone.rms, shared.rms);
     EXPECT_EQ(alone.max, shared.max);
@@ -100,7 +100,7 @@ TEST(Residual, OfManyContactsAddsUpTheSameVelocitiesInAnotherOrder) {
   CoulombSpinProblem unplanned = problem;
   unplanned.W.plan = {};
   unplanned.W.load(in_turn, r);
-  problem.W.load(by_slices, r, TeamLoops());
+  problem.W.load(by_slices, r, ParallelLoops());
   ASSERT_EQ(by_slices.size(), in_turn.size());
   for (std::size_t b = 0; b + 1 < in_turn.size(); ++b) {
     EXPECT_NEAR(by_slices[b].x, in_turn[b].x, 1e-15);
@@ -198,7 +198,7 @@ TEST(Residual, SinkingCountsTheSidesOfACellUnderPressure) {
   FrictionlessProblem problem;
   problem.W.inverse_mass = {1, 0, 0};
   problem.W.cell = CellBody{0.25, 0, 2, 1};
-  problem.W.renew(1);
+  problem.W.resize_uninitialized(1);
   problem.W.arm_x[0] = 2, problem.W.arm_z[0] = 0;
   problem.W.set(0, 0, 0, 1, 0);
   problem.q = {-1};

@@ -43,7 +43,7 @@ void expect_estimate(double precision, double mu = 0.4) {
   const auto [problem, r] = column(200, mu);
   std::vector<std::int32_t> order;
   const SweepPlan plan = sweep_plan(problem.W.fixed(), problem.W.i, problem.W.j, order);
-  TeamLoops loops;
+  ParallelLoops loops;
   StripProblem<T, Coulomb, true> strips;
   strips.pack(problem, plan, order, r, loops);
   for (const int phase : {0, 1})
@@ -117,7 +117,7 @@ double error_of_the_estimate(SweepExtrapolation how) {
     r.push_back(0.1 * (discs - b) + 0.05 * (b % 4)), r.push_back(0.01 * (b % 3 - 1));
   std::vector<std::int32_t> order;
   const SweepPlan plan = sweep_plan(problem.W.fixed(), problem.W.i, problem.W.j, order);
-  TeamLoops loops;
+  ParallelLoops loops;
   StripProblem<float, Coulomb, true> strips;
   strips.pack(problem, plan, order, r, loops);
   const auto each = [&](auto work) {
@@ -174,7 +174,7 @@ TEST(ResidualEstimate, OfAContactThatOpensWithoutFrictionIsNothing) {
   std::vector<std::int32_t> order;
   const SweepPlan plan = sweep_plan(problem.W.fixed(), problem.W.i, problem.W.j, order);
   StripProblem<float, Coulomb, true> strips;
-  strips.pack(problem, plan, order, r, TeamLoops());
+  strips.pack(problem, plan, order, r, ParallelLoops());
   for (const int phase : {0, 1})
     for (int strip = 0; strip < strips.strips(); ++strip) strips.estimate_residual(strip, phase);
   EXPECT_EQ(strips.residual_estimate().squares, 0);

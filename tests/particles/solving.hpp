@@ -16,11 +16,11 @@ struct Solved : Solution<Problem> {
 
 template <class Problem>
 Solved<Problem> solved_by(const std::string& solver, const Problem& problem, double tolerance, int max_sweeps,
-                          ThreadTeam* team = nullptr, int check_every = StoppingRule{}.check_every) {
+                          ThreadPool* pool = nullptr, int check_every = StoppingRule{}.check_every) {
   StoppingRule rule;
   rule.tolerance = tolerance, rule.max_sweeps = max_sweeps, rule.check_every = check_every;
   SolverWorkspace<Problem> work;
-  work.team = team;
+  work.pool = pool;
   Solved<Problem> solution;
   solution.report = any_solver<Problem>(solver)(problem, rule, work, solution);
   return solution;

@@ -164,12 +164,12 @@ TEST(Strips, SweepsAgreeWithThoseOfOneContactAfterTheOther) {
 
 template <class Problem>
 void expect_same_bytes(const Problem& problem, std::initializer_list<const char*> solvers,
-                       std::initializer_list<int> teams) {
+                       std::initializer_list<int> pools) {
   for (const char* solver : solvers) {
     const auto alone = solved_by(solver, problem, 0, 30).impulses;
-    for (const int threads : teams) {
-      ThreadTeam team(threads);
-      EXPECT_EQ(alone, solved_by(solver, problem, 0, 30, &team).impulses) << solver << ", " << threads;
+    for (const int threads : pools) {
+      ThreadPool pool(threads);
+      EXPECT_EQ(alone, solved_by(solver, problem, 0, 30, &pool).impulses) << solver << ", " << threads;
     }
     on_each_instruction_set([&](const char* target) {
       EXPECT_EQ(alone, solved_by(solver, problem, 0, 30).impulses) << solver << " on " << target;

@@ -16,10 +16,10 @@ TEST(WorkMemory, ArraysEndWithTheirFrame) {
   WorkArray<double> outer, inner;
   outer.use(&memory), inner.use(&memory);
   {
-    const WorkMemory::Frame frame(&memory);
+    const WorkMemory::Scope scope(&memory);
     outer.assign(100, 1.0);
     {
-      const WorkMemory::Frame within(&memory);
+      const WorkMemory::Scope within(&memory);
       inner.assign(1000, 2.0);
       EXPECT_EQ(inner.size(), 1000);
     }
@@ -36,10 +36,10 @@ TEST(WorkMemory, OneFrameTakesTheBytesOfTheOneBefore) {
   first.use(&memory), second.use(&memory);
   for (int step = 0; step < 3; ++step) {
     {
-      const WorkMemory::Frame frame(&memory);
+      const WorkMemory::Scope scope(&memory);
       first.assign(100000, 1.0);
     }
-    const WorkMemory::Frame frame(&memory);
+    const WorkMemory::Scope scope(&memory);
     second.assign(90000, 2.0);
   }
   EXPECT_LE(memory.bytes(), 100000 * sizeof(double) + 64);
@@ -48,7 +48,7 @@ TEST(WorkMemory, OneFrameTakesTheBytesOfTheOneBefore) {
 TEST(WorkMemory, PiecesOfItBecomeOne) {
   WorkMemory memory;
   const auto take_forty = [&] {
-    const WorkMemory::Frame frame(&memory);
+    const WorkMemory::Scope scope(&memory);
     const auto* const first = static_cast<std::byte*>(memory.take(50048));
     const std::byte* last = first;
     for (int k = 1; k < 40; ++k) last = static_cast<std::byte*>(memory.take(50048));
@@ -66,11 +66,11 @@ TEST(WorkMemory, PiecesOfItBecomeOne) {
 
 TEST(WorkMemory, LongerArraysKeepWhatTheyHold) {
   WorkMemory memory;
-  const WorkMemory::Frame frame(&memory);
+  const WorkMemory::Scope scope(&memory);
   for (WorkMemory* of : {&memory, static_cast<WorkMemory*>(nullptr)}) {
     WorkArray<int> array;
     array.use(of);
-    array.renew(3);
+    array.resize_uninitialized(3);
     array[0] = 5, array[1] = 6, array[2] = 7;
     array.resize(5000);
     EXPECT_EQ(array.size(), 5000);

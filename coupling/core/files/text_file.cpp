@@ -33,18 +33,18 @@ fs::path name_beside(const fs::path& file) {
 
 }  // namespace
 
-FileInTheMaking::FileInTheMaking(const fs::path& file)
+AtomicFile::AtomicFile(const fs::path& file)
     : file_(file),
       unfinished_(name_beside(file)),
       content_(::open(path().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)) {
   if (content_.number() < 0) throw_io_error(file_, "written");
 }
 
-void FileInTheMaking::write(std::string_view content) {
+void AtomicFile::write(std::string_view content) {
   if (!content_.write(content)) throw_io_error(file_, "written");
 }
 
-void FileInTheMaking::take_the_place(const fs::path& previous) {
+void AtomicFile::commit(const fs::path& previous) {
   // Some file systems report a full disk only here.
   if (::fsync(content_.number()) != 0 || !content_.close()) throw_io_error(file_, "written");
   if (!previous.empty() && std::rename(file_.c_str(), previous.c_str()) != 0 && errno != ENOENT)
@@ -54,9 +54,9 @@ void FileInTheMaking::take_the_place(const fs::path& previous) {
 }
 
 void replace_file(const fs::path& file, std::string_view content, const fs::path& previous) {
-  FileInTheMaking aside(file);
+  AtomicFile aside(file);
   aside.write(content);
-  aside.take_the_place(previous);
+  aside.commit(previous);
 }
 
 bool is_left_aside(const fs::path& file) {

@@ -16,10 +16,10 @@ std::string file_text(const std::filesystem::path& file);
 /// disk too: a kill or a power cut leaves the old file or the new one. The file aside is new; a symbolic link
 /// in the place of the file is replaced, not followed. It vanishes with this object unless it has taken its
 /// place.
-class FileInTheMaking {
+class AtomicFile {
  public:
   /// Makes it, empty. Throws IoError.
-  explicit FileInTheMaking(const std::filesystem::path& file);
+  explicit AtomicFile(const std::filesystem::path& file);
 
   /// Where it is to be written, if by something else than write().
   const std::filesystem::path& path() const { return unfinished_.path(); }
@@ -28,7 +28,7 @@ class FileInTheMaking {
   /// Nothing is written after it. An older file stays under the name `previous` of the same folder, if it is
   /// given: one of both is whole at any moment. Throws IoError, the older file then being intact, under one
   /// of both names.
-  void take_the_place(const std::filesystem::path& previous = {});
+  void commit(const std::filesystem::path& previous = {});
 
  private:
   std::filesystem::path file_;
@@ -36,7 +36,7 @@ class FileInTheMaking {
   Descriptor content_;
 };
 
-/// Writes `content`, text or not, as a FileInTheMaking.
+/// Writes `content`, text or not, as a AtomicFile.
 void replace_file(const std::filesystem::path& file, std::string_view content,
                   const std::filesystem::path& previous = {});
 

@@ -243,7 +243,7 @@ void H5FileWriter::add_rows(const std::string& name, std::size_t first_row, std:
 void H5FileWriter::save() {
   if (!handles_->file->end()) throw IoError(aside_.path().string() + ": HDF5 could not write it");
   append_checksum(aside_.path());
-  aside_.take_the_place();
+  aside_.commit();
 }
 
 }  // namespace drumlin

@@ -72,7 +72,7 @@ class H5FileWriter : public H5Content {
   void save();
 
  private:
-  FileInTheMaking aside_;
+  AtomicFile aside_;
 };
 
 }  // namespace drumlin

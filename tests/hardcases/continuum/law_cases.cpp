@@ -61,7 +61,7 @@ std::vector<HardCheck> bump_of_k() {
     covered += std::max(0.0, std::log10(std::min(range.to, 1e-3) / std::max(range.from, 1e-5)));
   // A larger eps would hide it: a fluid of constant viscosity.
   FlowProblem problem = small_drum_problem(paper_law, 1e-5);
-  problem.turned = TurnedStress{.k = k};
+  problem.turned = NonCoaxialStress{.k = k};
   FlowSolverOptions options = one_mesh();
   options.max_picard_updates = 3;
   const FlowSolution flow = solve_flow(problem, options);
@@ -84,7 +84,7 @@ std::vector<HardCheck> falling_friction() {
     refused = true;
     says_why = std::string(error.what()).find("mu falls with I") != std::string::npos;
   }
-  // What would come of it: every wave grows.
+  // What would come of it: every pipeline grows.
   const auto ranges = ill_posed_intervals(LogLaw{0.35, -0.013}, nullptr, 1e-4, 1e-1);
   const bool everywhere = ranges.size() == 1 && ranges[0].from <= 1e-4 && ranges[0].to >= 1e-1;
   return {at_least("refused as wrong input (exit 2)", 1, refused, ""),

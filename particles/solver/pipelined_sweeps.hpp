@@ -5,8 +5,8 @@
 
 namespace drumlin::particles {
 
-/// Most sweeps of a wave.
-inline constexpr int longest_wave = 5;
+/// Most sweeps of a pipeline.
+inline constexpr int longest_pipeline = 5;
 
 /// The strips of one thread of a rank, and how many the thread with the fewest has.
 struct StripShare {
@@ -14,7 +14,7 @@ struct StripShare {
   bool left = false, right = false;  ///< whether strips of others come before and after
 
   /// Whether so many sweeps go through it together; else, and where it is empty, they are taken in turn.
-  bool takes_wave(int sweeps) const {
+  bool is_pipelined(int sweeps) const {
     return first < end && sweeps > 1 && ((!left && !right) || fewest >= 2 * sweeps);
   }
 };
@@ -25,13 +25,13 @@ struct StripRange {
   bool holds(int strip) const { return strip >= first && strip < end; }
 };
 
-/// The strips on which a share takes a phase of sweep s of a wave without the shares beside it.
+/// The strips on which a share takes a phase of sweep s of a pipeline without the shares beside it.
 inline StripRange alone(const StripShare& share, int s, int phase) {
   return {share.first + (share.left ? s : 0), share.end - (share.right ? s + phase : 0)};
 }
 
-/// A share's part of a wave that needs nothing of the shares beside it: part(s, strip, phase) does a phase of
-/// sweep s on a strip.
+/// A share's part of a pipeline that needs nothing of the shares beside it: part(s, strip, phase) does a
+/// phase of sweep s on a strip.
 template <class Part>
 void sweep_alone(const StripShare& share, int sweeps, Part part) {
   for (int front = share.first; front < share.end + sweeps; ++front)
@@ -41,7 +41,7 @@ void sweep_alone(const StripShare& share, int sweeps, Part part) {
 }
 
 /// strips: tells first_strip(rank, thread, threads), and the ranks() that share them, as StripProblem does.
-/// Whether a wave is taken follows from teams of `size` threads: all ranks must agree.
+/// Whether a pipeline is taken follows from pools of `size` threads: all ranks must agree.
 template <class Strips>
 StripShare share_of(const Strips& strips, int thread, int threads, int size) {
   const int rank = strips.rank(), ranks = strips.ranks();
@@ -64,12 +64,12 @@ StripShare share_of(const Strips& strips, int thread, int threads, int size) {
 /// sweeps in turn. Where two shares meet, each leaves out what would need the other's, and does it in turn
 /// with the other. Shares that are too narrow for it take the sweeps in turn.
 template <class Part, class Meet>
-void sweep_wave(const StripShare& share, int sweeps, Part part, Meet meet) {
-  const bool wave = share.takes_wave(sweeps);
-  if (wave) sweep_alone(share, sweeps, part);
+void pipelined_sweeps(const StripShare& share, int sweeps, Part part, Meet meet) {
+  const bool pipeline = share.is_pipelined(sweeps);
+  if (pipeline) sweep_alone(share, sweeps, part);
   for (int s = 0; s < sweeps; ++s)
     for (const int phase : {0, 1}) {
-      const StripRange done = wave ? alone(share, s, phase) : StripRange{share.first, share.first};
+      const StripRange done = pipeline ? alone(share, s, phase) : StripRange{share.first, share.first};
       for (int strip = share.first; strip < done.first; ++strip) part(s, strip, phase);
       for (int strip = done.end; strip < share.end; ++strip) part(s, strip, phase);
       meet(phase);

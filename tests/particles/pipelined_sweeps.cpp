@@ -1,12 +1,12 @@
 // Waves of sweeps: the result of sweeps in turn, for any number of strips and threads.
-#include "particles/solver/sweep_wave.hpp"
+#include "particles/solver/pipelined_sweeps.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <vector>
 
-#include "particles/parallel/thread_team.hpp"
+#include "particles/parallel/thread_pool.hpp"
 
 namespace drumlin {
 using namespace particles;
@@ -53,14 +53,14 @@ std::vector<std::uint64_t> in_turn(int strips, int sweeps) {
 
 TEST(SweepWave, GivesWhatSweepsInTurnGive) {
   for (const int size : {1, 2, 3, 5}) {
-    ThreadTeam team(size);
+    ThreadPool pool(size);
     for (const int strips : {1, 2, 3, 7, 12, 20, 21, 33, 64})
-      for (int sweeps = 1; sweeps <= longest_wave; ++sweeps) {
+      for (int sweeps = 1; sweeps <= longest_pipeline; ++sweeps) {
         Slices slices(strips);
-        team.run([&](int t, int threads) {
-          sweep_wave(
+        pool.run([&](int t, int threads) {
+          pipelined_sweeps(
               share_of(Strips{strips}, t, threads, size), sweeps,
-              [&](int s, int strip, int phase) { slices.touch(s, strip, phase); }, [&](int) { team.meet(); });
+              [&](int s, int strip, int phase) { slices.touch(s, strip, phase); }, [&](int) { pool.barrier(); });
         });
         EXPECT_EQ(slices.numbers(), in_turn(strips, sweeps))
             << size << " threads, " << strips << " strips, " << sweeps << " sweeps";
@@ -71,13 +71,13 @@ TEST(SweepWave, GivesWhatSweepsInTurnGive) {
 /// Threads stand for ranks here.
 TEST(SweepWave, OfSeveralRanksIsTheSame) {
   constexpr int ranks = 3, threads = 2, strips = 64;
-  for (int sweeps = 1; sweeps <= longest_wave; ++sweeps) {
-    ThreadTeam team(ranks * threads);
+  for (int sweeps = 1; sweeps <= longest_pipeline; ++sweeps) {
+    ThreadPool pool(ranks * threads);
     Slices slices(strips);
-    team.run([&](int t, int) {
-      sweep_wave(
+    pool.run([&](int t, int) {
+      pipelined_sweeps(
           share_of(Strips{strips, t / threads, ranks}, t % threads, threads, threads), sweeps,
-          [&](int s, int strip, int phase) { slices.touch(s, strip, phase); }, [&](int) { team.meet(); });
+          [&](int s, int strip, int phase) { slices.touch(s, strip, phase); }, [&](int) { pool.barrier(); });
     });
     EXPECT_EQ(slices.numbers(), in_turn(strips, sweeps)) << sweeps << " sweeps";
   }
@@ -87,7 +87,7 @@ TEST(SweepWave, OfSeveralRanksIsTheSame) {
 TEST(SweepWave, OfNoStripsOnlyMeets) {
   int meetings = 0;
   const StripShare none{64, 64, 20, true, false};
-  sweep_wave(
+  pipelined_sweeps(
       none, 5, [](int, int strip, int) { FAIL() << strip; }, [&](int) { ++meetings; });
   EXPECT_EQ(meetings, 10);
 }

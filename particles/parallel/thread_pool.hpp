@@ -1,5 +1,5 @@
 #pragma once
-// Thread team: threads that work on one solve together and meet many thousand times a second.
+// Thread pool: threads that work on one solve together and meet many thousand times a second.
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -15,10 +15,10 @@ namespace drumlin::particles {
 class Barrier {
  public:
   explicit Barrier(int threads) : threads_(threads) {}
-  void meet();
+  void wait();
 
  private:
-  friend class ThreadTeam;
+  friend class ThreadPool;
   int threads_;
   alignas(64) std::atomic<int> arrived_{0};
   alignas(64) std::atomic<std::uint32_t> round_{0};
@@ -26,17 +26,17 @@ class Barrier {
 
 /// The calling thread and size() - 1 helpers, which sleep between two jobs.
 ///
-/// Where other processes take the processors, threads wait for one that does not run. So the team looks now
+/// Where other processes take the processors, threads wait for one that does not run. So the pool looks now
 /// and then how often the system has taken a processor away from this process, and leaves the next jobs to
 /// the calling thread where that was often. Shares of a job must not decide its result: it may be given 1 or
 /// size() threads. A process that fork() made of this one has no helpers: there it works alone.
-class ThreadTeam {
+class ThreadPool {
  public:
   /// Throws std::system_error if the system gives no more threads, and std::bad_alloc.
-  explicit ThreadTeam(int threads);
-  ~ThreadTeam();
-  ThreadTeam(const ThreadTeam&) = delete;
-  ThreadTeam& operator=(const ThreadTeam&) = delete;
+  explicit ThreadPool(int threads);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
 
   int size() const { return static_cast<int>(members_.size()); }
   /// Number of threads that the next job is given.
@@ -46,7 +46,7 @@ class ThreadTeam {
   /// throw, or others wait for ever.
   void run(const std::function<void(int, int)>& job);
   /// Where the threads of a job meet; all of them call it.
-  void meet() { barrier_.meet(); }
+  void barrier() { barrier_.wait(); }
 
  private:
   struct alignas(64) Member {

@@ -1,5 +1,5 @@
 // Impulses are found again by the pairs that carried them.
-#include "particles/stepping/contact_memory.hpp"
+#include "particles/stepping/impulse_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ std::vector<Candidate> some_pairs(int bodies, double odds, unsigned seed) {
 }
 
 /// Remembers pairs with impulses (10 i + j, -1), solved from the last to the first.
-ContactMemory remembered(const std::vector<Candidate>& pairs, double time_step) {
+ImpulseCache remembered(const std::vector<Candidate>& pairs, double time_step) {
   std::vector<std::int32_t> i, j, order;
   std::vector<double> impulses;
   for (const Candidate& pair : pairs) i.push_back(pair.i), j.push_back(pair.j);
@@ -35,13 +35,13 @@ ContactMemory remembered(const std::vector<Candidate>& pairs, double time_step) 
     order.push_back(static_cast<std::int32_t>(a));
     impulses.insert(impulses.end(), {10.0 * i[a] + j[a], -1});
   }
-  ContactMemory memory;
-  remember(i, j, order, impulses, time_step, TeamLoops(), memory);
+  ImpulseCache memory;
+  remember(i, j, order, impulses, time_step, ParallelLoops(), memory);
   return memory;
 }
 
 void expect_loads(const std::vector<Candidate>& pairs, const std::vector<Candidate>& known,
-                  const RememberedLoads& loads) {
+                  const SavedLoads& loads) {
   std::map<Pair, double> carried;
   for (const Candidate& pair : known) carried[{pair.i, pair.j}] = 2 * (10.0 * pair.i + pair.j);
   for (std::size_t a = 0; a < pairs.size(); ++a) {
@@ -51,24 +51,24 @@ void expect_loads(const std::vector<Candidate>& pairs, const std::vector<Candida
   }
 }
 
-TEST(ContactMemory, FindsPairsInTheirOrderAndInAnyOther) {
+TEST(ImpulseCache, FindsPairsInTheirOrderAndInAnyOther) {
   const auto before = some_pairs(60, 0.3, 1);
-  const ContactMemory memory = remembered(before, 0.5);
+  const ImpulseCache memory = remembered(before, 0.5);
   EXPECT_TRUE(std::is_sorted(memory.i.begin(), memory.i.end()));
   auto now = some_pairs(60, 0.3, 2);
-  Recollection recollection;
-  recollection.find(memory, now);
-  expect_loads(now, before, recollection.loads(memory, 2, 1));
+  WarmStarts warm_starts;
+  warm_starts.find(memory, now);
+  expect_loads(now, before, warm_starts.loads(memory, 2, 1));
   std::shuffle(now.begin(), now.end(), std::mt19937(3));
-  recollection.find(memory, now);
-  expect_loads(now, before, recollection.loads(memory, 2, 1));
-  recollection.find({}, now);
-  expect_loads(now, {}, recollection.loads({}, 2, 1));
+  warm_starts.find(memory, now);
+  expect_loads(now, before, warm_starts.loads(memory, 2, 1));
+  warm_starts.find({}, now);
+  expect_loads(now, {}, warm_starts.loads({}, 2, 1));
 }
 
-TEST(ContactMemory, FindsPairsThatAreAdded) {
+TEST(ImpulseCache, FindsPairsThatAreAdded) {
   const auto before = some_pairs(40, 0.5, 4), now = some_pairs(40, 0.5, 5);
-  const ContactMemory memory = remembered(before, 0.5);
+  const ImpulseCache memory = remembered(before, 0.5);
   std::vector<Candidate> first;
   std::vector<std::int32_t> added;
   std::vector<Candidate> pairs_added;
@@ -77,22 +77,22 @@ TEST(ContactMemory, FindsPairsThatAreAdded) {
       added.push_back(static_cast<std::int32_t>(a)), pairs_added.push_back(now[a]);
     else
       first.push_back(now[a]);
-  Recollection recollection;
-  recollection.find(memory, first);
-  recollection.find_added(memory, added, pairs_added);
-  expect_loads(now, before, recollection.loads(memory, 2, 1));
+  WarmStarts warm_starts;
+  warm_starts.find(memory, first);
+  warm_starts.find_added(memory, added, pairs_added);
+  expect_loads(now, before, warm_starts.loads(memory, 2, 1));
 }
 
-TEST(ContactMemory, WarmStartsInTheOrderOfTheSolve) {
+TEST(ImpulseCache, WarmStartsInTheOrderOfTheSolve) {
   const auto pairs = some_pairs(20, 0.5, 6);
-  const ContactMemory memory = remembered(pairs, 0.5);
+  const ImpulseCache memory = remembered(pairs, 0.5);
   std::vector<std::int32_t> order;
   for (std::size_t a = 0; a < pairs.size(); ++a) order.push_back(static_cast<std::int32_t>(a));
   std::shuffle(order.begin(), order.end(), std::mt19937(7));
-  Recollection recollection;
-  recollection.find(memory, pairs);
+  WarmStarts warm_starts;
+  warm_starts.find(memory, pairs);
   std::vector<double> impulses;
-  recollection.warm_start(memory, 2, 1, order, impulses);
+  warm_starts.warm_start(memory, 2, 1, order, impulses);
   ASSERT_EQ(impulses.size(), 2 * pairs.size());
   for (std::size_t a = 0; a < pairs.size(); ++a) {
     EXPECT_EQ(impulses[2 * a], 2 * (10.0 * pairs[order[a]].i + pairs[order[a]].j));

@@ -1,19 +1,19 @@
 #pragma once
-// Loops over many entries, shared among the threads of a team.
+// Loops over many entries, shared among the threads of a pool.
 #include <algorithm>
 #include <cstddef>
 #include <vector>
 
-#include "particles/parallel/thread_team.hpp"
+#include "particles/parallel/thread_pool.hpp"
 
 namespace drumlin::particles {
 
 /// Cuts loops into pieces that do not depend on the number of threads: sums over pieces, added in their
-/// order, are the same bytes for any team.
-class TeamLoops {
+/// order, are the same bytes for any pool.
+class ParallelLoops {
  public:
-  /// No team: the calling thread does everything.
-  explicit TeamLoops(ThreadTeam* team = nullptr) : team_(team) {}
+  /// No pool: the calling thread does everything.
+  explicit ParallelLoops(ThreadPool* pool = nullptr) : pool_(pool) {}
 
   /// Calls work(begin, end) for pieces of [0, count).
   template <class Work>
@@ -22,8 +22,8 @@ class TeamLoops {
     const auto some = [&](std::size_t first, std::size_t last) {
       for (std::size_t p = first; p < last; ++p) work(p * piece, std::min(count, (p + 1) * piece));
     };
-    if (team_ == nullptr || pieces < 4) return some(0, pieces);
-    team_->run([&](int t, int count_of_threads) {
+    if (pool_ == nullptr || pieces < 4) return some(0, pieces);
+    pool_->run([&](int t, int count_of_threads) {
       const auto thread = static_cast<std::size_t>(t), threads = static_cast<std::size_t>(count_of_threads);
       some(pieces * thread / threads, pieces * (thread + 1) / threads);
     });
@@ -35,8 +35,8 @@ class TeamLoops {
     const auto some = [&](int first, int last) {
       for (int k = first; k < last; ++k) work(k);
     };
-    if (team_ == nullptr || count < 2) return some(0, count);
-    team_->run([&](int t, int threads) { some(count * t / threads, count * (t + 1) / threads); });
+    if (pool_ == nullptr || count < 2) return some(0, count);
+    pool_->run([&](int t, int threads) { some(count * t / threads, count * (t + 1) / threads); });
   }
 
   /// The sum of part(begin, end) over the pieces.
@@ -59,13 +59,13 @@ class TeamLoops {
     return all;
   }
 
-  ThreadTeam* team() const { return team_; }
+  ThreadPool* pool() const { return pool_; }
   /// That the next loop is given.
-  int threads() const { return team_ ? team_->threads() : 1; }
+  int threads() const { return pool_ ? pool_->threads() : 1; }
 
  private:
   static constexpr std::size_t piece = 1024;
-  ThreadTeam* team_;
+  ThreadPool* pool_;
   std::vector<double> parts_;
 };
 

@@ -1,4 +1,4 @@
-#include "particles/stepping/contact_memory.hpp"
+#include "particles/stepping/impulse_cache.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -9,7 +9,7 @@ namespace drumlin::particles {
 namespace {
 
 /// What turns an impulse that is remembered into one of a step of length `time_step`.
-double scale_of(const ContactMemory& memory, double time_step) {
+double scale_of(const ImpulseCache& memory, double time_step) {
   return memory.time_step > 0 ? time_step / memory.time_step : 1;
 }
 
@@ -17,7 +17,7 @@ double scale_of(const ContactMemory& memory, double time_step) {
 std::int64_t key_of(std::int32_t i, std::int32_t j) { return (std::int64_t{i} << 32) + j; }
 
 /// The first contact that is not before a pair.
-std::size_t first_from(const ContactMemory& memory, std::int64_t key) {
+std::size_t first_from(const ImpulseCache& memory, std::int64_t key) {
   std::size_t first = 0;
   for (std::size_t count = memory.i.size(); count > 0;) {
     const std::size_t half = count / 2;
@@ -29,13 +29,13 @@ std::size_t first_from(const ContactMemory& memory, std::int64_t key) {
 }
 
 /// Position of a pair in the memory; -1: none.
-std::int32_t place_of(const ContactMemory& memory, const Candidate& pair) {
+std::int32_t place_of(const ImpulseCache& memory, const Candidate& pair) {
   const std::size_t m = first_from(memory, key_of(pair.i, pair.j));
   return m < memory.i.size() && memory.i[m] == pair.i && memory.j[m] == pair.j ? static_cast<std::int32_t>(m)
                                                                                : -1;
 }
 
-bool in_order(const ContactMemory& memory) {
+bool in_order(const ImpulseCache& memory) {
   for (std::size_t m = 1; m < memory.i.size(); ++m)
     if (key_of(memory.i[m - 1], memory.j[m - 1]) > key_of(memory.i[m], memory.j[m])) return false;
   return true;
@@ -54,21 +54,21 @@ std::vector<std::int32_t> sorted_by(std::span<const std::int32_t> keys,
 
 }  // namespace
 
-bool was_loaded(const ContactMemory& memory, const Candidate& pair) {
+bool was_loaded(const ImpulseCache& memory, const Candidate& pair) {
   const auto [first, last] = std::equal_range(memory.i.begin(), memory.i.end(), pair.i);
   const auto begin = memory.j.begin() + (first - memory.i.begin()),
              end = memory.j.begin() + (last - memory.i.begin());
   return std::binary_search(begin, end, pair.j);
 }
 
-void put_in_order(ContactMemory& memory) {
+void put_in_order(ImpulseCache& memory) {
   const std::size_t contacts = memory.i.size();
   if (in_order(memory)) return;
   std::vector<std::int32_t> places(contacts);
   for (std::size_t m = 0; m < contacts; ++m) places[m] = static_cast<std::int32_t>(m);
   places = sorted_by(memory.i, sorted_by(memory.j, places));  // the later key first
   const std::size_t dim = memory.impulse.size() / contacts;
-  ContactMemory sorted;
+  ImpulseCache sorted;
   sorted.time_step = memory.time_step;
   sorted.i.reserve(contacts), sorted.j.reserve(contacts), sorted.impulse.reserve(memory.impulse.size());
   for (const std::int32_t m : places) {
@@ -78,8 +78,8 @@ void put_in_order(ContactMemory& memory) {
   memory = std::move(sorted);
 }
 
-void Recollection::find(const ContactMemory& memory, std::span<const Candidate> pairs) {
-  place_.renew(pairs.size());
+void WarmStarts::find(const ImpulseCache& memory, std::span<const Candidate> pairs) {
+  place_.resize_uninitialized(pairs.size());
   std::int32_t* const place = place_.data();
   loops_.each(pairs.size(), [&, contacts = memory.i.size()](std::size_t begin, std::size_t end) {
     std::size_t m = 0;
@@ -93,18 +93,18 @@ void Recollection::find(const ContactMemory& memory, std::span<const Candidate> 
   });
 }
 
-void Recollection::find_added(const ContactMemory& memory, std::span<const std::int32_t> added,
-                              std::span<const Candidate> pairs_added) {
+void WarmStarts::find_added(const ImpulseCache& memory, std::span<const std::int32_t> added,
+                            std::span<const Candidate> pairs_added) {
   open_gaps(place_, added.size(), [&](std::size_t k, std::size_t) { return added[k]; });
   for (std::size_t k = 0; k < added.size(); ++k) place_[added[k]] = place_of(memory, pairs_added[k]);
 }
 
-RememberedLoads Recollection::loads(const ContactMemory& memory, int dim, double time_step) const {
+SavedLoads WarmStarts::loads(const ImpulseCache& memory, int dim, double time_step) const {
   return {{place_.data(), place_.size()}, memory.impulse, dim, scale_of(memory, time_step)};
 }
 
-void Recollection::warm_start(const ContactMemory& memory, int dim, double time_step,
-                              std::span<const std::int32_t> order, std::vector<double>& impulses) const {
+void WarmStarts::warm_start(const ImpulseCache& memory, int dim, double time_step,
+                            std::span<const std::int32_t> order, std::vector<double>& impulses) const {
   resize_closely(impulses, dim * place_.size());
   const double scale = scale_of(memory, time_step);
   const std::int32_t* const place = place_.data();
@@ -117,9 +117,9 @@ void Recollection::warm_start(const ContactMemory& memory, int dim, double time_
   });
 }
 
-void remember(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
-              std::span<const std::int32_t> order, const std::vector<double>& impulses, double time_step,
-              const TeamLoops& loops, ContactMemory& memory) {
+void save_contacts(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
+                   std::span<const std::int32_t> order, const std::vector<double>& impulses, double time_step,
+                   const ParallelLoops& loops, ImpulseCache& memory) {
   memory.time_step = time_step;
   resize_closely(memory.i, i.size());
   resize_closely(memory.j, j.size());

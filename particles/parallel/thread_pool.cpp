@@ -1,4 +1,4 @@
-#include "particles/parallel/thread_team.hpp"
+#include "particles/parallel/thread_pool.hpp"
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -54,7 +54,7 @@ void wait_for_change(const std::atomic<T>& value, T old, Clock::duration awake =
 
 }  // namespace
 
-void Barrier::meet() {
+void Barrier::wait() {
   const std::uint32_t round = round_.load(std::memory_order_relaxed);
   if (arrived_.fetch_add(1, std::memory_order_acq_rel) < threads_ - 1) return wait_for_change(round_, round);
   arrived_.store(0, std::memory_order_relaxed);
@@ -62,7 +62,7 @@ void Barrier::meet() {
   round_.notify_all();
 }
 
-ThreadTeam::ThreadTeam(int threads)
+ThreadPool::ThreadPool(int threads)
     : barrier_(threads), members_(static_cast<std::size_t>(threads)), owner_(getpid()) {
   try {
     for (int t = 1; t < threads; ++t) helpers_.emplace_back([this, t] { help(t); });
@@ -75,16 +75,16 @@ ThreadTeam::ThreadTeam(int threads)
   }
 }
 
-ThreadTeam::~ThreadTeam() { end(); }
+ThreadPool::~ThreadPool() { end(); }
 
-void ThreadTeam::forget_lost_helpers() {
+void ThreadPool::forget_lost_helpers() {
   if (getpid() == owner_) return;
   for (auto& helper : helpers_) helper.detach();
   helpers_.clear();
   barrier_.threads_ = 1;
 }
 
-void ThreadTeam::end() {
+void ThreadPool::end() {
   forget_lost_helpers();
   over_ = true;
   for (auto& member : members_) {
@@ -94,7 +94,7 @@ void ThreadTeam::end() {
   for (auto& helper : helpers_) helper.join();
 }
 
-void ThreadTeam::run(const std::function<void(int, int)>& job) {
+void ThreadPool::run(const std::function<void(int, int)>& job) {
   forget_lost_helpers();
   if (helpers_.empty()) return job(0, 1);
   choose_threads();
@@ -115,7 +115,7 @@ void ThreadTeam::run(const std::function<void(int, int)>& job) {
   if (first) std::rethrow_exception(first);
 }
 
-void ThreadTeam::choose_threads() {
+void ThreadPool::choose_threads() {
   // On an idle machine a processor is taken away some ten times a second, beside another process every few
   // milliseconds. To try all threads again may cost a tenth of the time.
   constexpr std::chrono::milliseconds with_all{50}, alone{500};
@@ -131,7 +131,7 @@ void ThreadTeam::choose_threads() {
   next_choice_ = now + (busy ? Clock::duration(alone) : with_all);
 }
 
-void ThreadTeam::work(int t) noexcept {
+void ThreadPool::work(int t) noexcept {
   try {
     (*job_)(t, threads());
   } catch (...) {
@@ -140,7 +140,7 @@ void ThreadTeam::work(int t) noexcept {
   }
 }
 
-void ThreadTeam::help(int t) {
+void ThreadPool::help(int t) {
   auto& jobs = members_[static_cast<std::size_t>(t)].jobs;
   for (std::uint32_t done = 0;; ++done) {
     wait_for_change(jobs, done, longest_pause);

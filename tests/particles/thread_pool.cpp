@@ -1,6 +1,4 @@
-// Thread teams: every share of a job is done once, whatever the number of threads and their processors.
-#include "particles/parallel/thread_team.hpp"
-
+// Thread pools: every share of a job is done once, whatever the number of threads and their processors.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -14,24 +12,26 @@
 #include <thread>
 #include <vector>
 
+#include "particles/parallel/thread_pool.hpp"
+
 namespace drumlin {
 using namespace particles;
 namespace {
 
-TEST(ThreadTeam, EveryShareOfAJobIsDoneOnceAndThreadsMeet) {
+TEST(ThreadPool, EveryShareOfAJobIsDoneOnceAndThreadsMeet) {
   for (const int size : {1, 2, 3, 8}) {
-    ThreadTeam team(size);
+    ThreadPool pool(size);
     for (long job = 0; job < 300; ++job) {
       std::vector<int> first(static_cast<std::size_t>(size), 0), second = first;
       int threads_of_job = 0;
-      team.run([&](int t, int threads) {
+      pool.run([&](int t, int threads) {
         const auto thread = static_cast<std::size_t>(t);
         if (t == 0) threads_of_job = threads;
         ++first[thread];
-        team.meet();
+        pool.barrier();
         for (int other = 0; other < threads; ++other)
           second[thread] += first[static_cast<std::size_t>(other)];
-        team.meet();
+        pool.barrier();
         first[thread] = 0;
       });
       ASSERT_TRUE(threads_of_job == size || threads_of_job == 1);  // on a busy machine
@@ -46,14 +46,14 @@ TEST(ThreadTeam, EveryShareOfAJobIsDoneOnceAndThreadsMeet) {
 
 /// What the calling thread would destroy on its way out is not destroyed before the others have done their
 /// shares.
-TEST(ThreadTeam, ThrowsWhatAJobThrowsOnceAllAreDone) {
+TEST(ThreadPool, ThrowsWhatAJobThrowsOnceAllAreDone) {
   for (const int size : {1, 2, 4}) {
-    ThreadTeam team(size);
+    ThreadPool pool(size);
     for (int thrower = 0; thrower < size; ++thrower) {
       std::atomic<int> done = 0;
       int threads_of_job = 0;
       try {
-        team.run([&](int t, int threads) {
+        pool.run([&](int t, int threads) {
           if (t == 0) threads_of_job = threads;
           if (t == thrower || t + 1 == threads) throw std::bad_alloc();
           std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -66,32 +66,32 @@ TEST(ThreadTeam, ThrowsWhatAJobThrowsOnceAllAreDone) {
       }
     }
     int shares = 0;
-    team.run([&](int t, int) { shares += t == 0; });
+    pool.run([&](int t, int) { shares += t == 0; });
     EXPECT_EQ(shares, 1);
   }
 }
 
-/// In the child a job and the end of the team wait for nobody; the parent's threads go on.
-TEST(ThreadTeam, AForkGoesOnAloneWhereTheThreadsAreGone) {
-  ThreadTeam team(2);
+/// In the child a job and the end of the pool wait for nobody; the parent's threads go on.
+TEST(ThreadPool, AForkGoesOnAloneWhereTheThreadsAreGone) {
+  ThreadPool pool(2);
   std::atomic<int> shares = 0;
   const auto share = [&](int, int) {
-    team.meet();
+    pool.barrier();
     ++shares;
   };
-  team.run(share);
+  pool.run(share);
   ASSERT_EQ(shares, 2) << "the first job has all threads";
   const pid_t child = ::fork();
   if (child == 0) {
     ::alarm(60);  // ends what hangs
-    team.run(share);
-    team.~ThreadTeam();
+    pool.run(share);
+    pool.~ThreadPool();
     ::_exit(shares == 3 ? 7 : 8);
   }
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 7) << status;
-  team.run(share);
+  pool.run(share);
   EXPECT_GE(shares, 3);
 }
 
@@ -101,13 +101,13 @@ TEST(Barrier, WakesWhoFallsAsleepJustWhenTheOthersCome) {
   Barrier barrier(2);
   constexpr int rounds = 20000;
   std::thread early([&barrier] {
-    for (int round = 0; round < rounds; ++round) barrier.meet();
+    for (int round = 0; round < rounds; ++round) barrier.wait();
   });
   using namespace std::chrono;
   for (int round = 0; round < rounds; ++round) {
     const auto late = steady_clock::now() + nanoseconds(32000 + round % 5000);
     while (steady_clock::now() < late) continue;
-    barrier.meet();
+    barrier.wait();
   }
   early.join();
 }
@@ -117,7 +117,7 @@ TEST(Barrier, WakesWhoFallsAsleepJustWhenTheOthersCome) {
   const rlimit room = {1 << 28, 1 << 28};  // bytes: stacks of some threads, not of all
   ::setrlimit(RLIMIT_AS, &room);
   try {
-    const ThreadTeam team(250);
+    const ThreadPool pool(250);
   } catch (const std::system_error& error) {
     ::_exit(std::string(error.what()).starts_with("250 threads cannot be started") ? 7 : 8);
   } catch (const std::bad_alloc&) {
@@ -126,7 +126,7 @@ TEST(Barrier, WakesWhoFallsAsleepJustWhenTheOthersCome) {
   ::_exit(9);
 }
 
-TEST(ThreadTeam, ThreadsThatCannotBeStartedAreAnErrorThatTellsHowMany) {
+TEST(ThreadPool, ThreadsThatCannotBeStartedAreAnErrorThatTellsHowMany) {
 #if defined(__SANITIZE_ADDRESS__)
   // The test limits the addresses of the process, below what the sanitizer has reserved before main().
   GTEST_SKIP() << "the address sanitizer takes terabytes of addresses";
