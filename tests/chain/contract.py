@@ -42,10 +42,21 @@ class Contract:
                     words += [value] if option["is_positional"] else ["--" + name, value]
         return [*words, *MORE.get(self.command["name"], [])]
 
-    def refuses(self, *words, reason):
+    def others(self):
+        """Each option that decides the results, with another value than its own."""
+        for name, option in self.options.items():
+            default, other = option["default"], None
+            if option["choices"]:
+                other = next((choice for choice in option["choices"] if default and choice != default), None)
+            elif option["kind"] in ("INT", "FLOAT") and default is not None:
+                other = default + 1
+            if option["decides"] and not option["needs"] and "--" + name not in self.words() and (other or default is False):
+                yield ["--" + name] if other is None else ["--" + name, other]
+
+    def refuses(self, *words, reason, said_as=""):
         before = bytes_below(self.folder)
         _, said = self.drumlin(*words, code=2)
-        require(said.strip(), f"{reason}: {words} was refused without a word")
+        require(said.strip() and said_as in said, f"{reason}: {words} was refused with {said!r}")
         require(bytes_below(self.folder) == before, f"{reason}: {words} touched files")
         return 1
 
@@ -82,6 +93,8 @@ class Contract:
         said, _ = self.drumlin(*self.words(), "--resume")
         require("done already" in said or "nothing to do" in said, f"{self.command['name']} --resume: {said}")
         require(bytes_below(self.folder) == before, f"{self.command['name']} --resume touched files")
+        for other in self.others():
+            self.refuses(*self.words(), *other, "--resume", reason="what was not requested", said_as="other")
 
     def ends_by_signals(self):
         """At any moment, with its code, without parts of files."""

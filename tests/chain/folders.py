@@ -132,14 +132,6 @@ def measured_belongs_to_its_run(drumlin, scene, run, folder):
 
 
 def strangers_stay(drumlin, scene, run, folder):
-    theirs = folder / "theirs"
-    theirs.mkdir()
-    (theirs / "log.csv").write_text("of another program\n", encoding="utf-8")
-    before = bytes_below(theirs)
-    for word in ("--resume", "--overwrite"):
-        drumlin("run", scene, "-o", theirs, *SHORT, word, code=2)
-    require(bytes_below(theirs) == before, "a stranger's folder was touched")
-
     ours = folder / "ours"
     shutil.copytree(run, ours)
     (ours / "notes.txt").write_text("years of work\n", encoding="utf-8")
