@@ -133,7 +133,7 @@ def described(frames, field):
     """One side as the player reads it."""
     head, stream, _ = player_pack.packed(frames, False)
     return head | {"number": list(range(len(frames))), "time_s": [frame.time_s for frame in frames], "period": None,
-                   "scales": frames[0].scales, "fields": [field], "data": base64.b64encode(stream).decode("ascii")}
+                   "overlaps": [[]] * len(frames), "scales": frames[0].scales, "fields": [field], "data": base64.b64encode(stream).decode("ascii")}
 
 
 def motion(files, maps, comparison):
