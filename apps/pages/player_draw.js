@@ -64,7 +64,7 @@ function drawGrains(ctx, camera, run, f, field, light) {
   }
   ctx.fillStyle = run.content.signal;
   ctx.beginPath();
-  for (const g of (run.content.overlaps?.[f] ?? []).flatMap(([, a, b]) => b < 0 ? [a] : [a, b])) {
+  for (const g of run.content.overlaps[f].flatMap(([, a, b]) => b < 0 ? [a] : [a, b])) {
     const x = camera.toX(run.x(frame, g)), y = camera.toY(run.z(frame, g)), r = run.radius[g] * s;
     ctx.moveTo(x + r, y);
     ctx.arc(x, y, r, 0, 2 * Math.PI);
