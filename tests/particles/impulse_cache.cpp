@@ -36,7 +36,7 @@ ImpulseCache remembered(const std::vector<Candidate>& pairs, double time_step) {
     impulses.insert(impulses.end(), {10.0 * i[a] + j[a], -1});
   }
   ImpulseCache memory;
-  remember(i, j, order, impulses, time_step, ParallelLoops(), memory);
+  save_contacts(i, j, order, impulses, time_step, ParallelLoops(), memory);
   return memory;
 }
 
