@@ -41,7 +41,7 @@ struct CalibrateOptions {
           "Memory of the axes of stress as a part of the law: amount of the stress over I, share renewed by "
           "strain, and what the runs cannot tell of them (from maps)");
     d.add("--nonlocal", nonlocal,
-          "Threshold and length of nonlocal fluidity as a part of the law, and whether the runs ask for them "
+          "Threshold and length of nonlocal fluidity as a part of the law, and whether the runs need them "
           "(from maps)");
     d.add("--amount", amount,
           "With --memory: what is added to the amount of the stress: creep, dilatancy and lag of the axes, "
