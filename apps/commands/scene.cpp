@@ -42,7 +42,7 @@ struct NoOptions {
 };
 
 /// Makes the simulation too: what only shows there is a fault of the scene.
-int check(const SceneOptions& options) {
+int check_scene(const SceneOptions& options) {
   particles::Scene scene = particles::read_scene(options.scene, options.overrides);
   (void)take_over_grains(scene);
   const Scales scales = scales_of(scene);
@@ -82,7 +82,7 @@ int check(const SceneOptions& options) {
 }
 
 /// Names and titles, in the order of the names.
-int list(const NoOptions&) {
+int list_scenes(const NoOptions&) {
   std::vector<std::filesystem::path> scenes;
   for (const auto& file : std::filesystem::directory_iterator(data_folder() / "scenes"))
     if (file.path().extension() == ".toml") scenes.push_back(file.path());
@@ -96,12 +96,12 @@ int list(const NoOptions&) {
   return 0;
 }
 
-int show(const SceneOptions& options) {
+int show_scene(const SceneOptions& options) {
   print_out(particles::scene_text(particles::read_scene(options.scene, options.overrides)));
   return 0;
 }
 
-int keys(const KeysOptions& options) {
+int list_keys(const KeysOptions& options) {
   print_out(options.markdown ? keys_as_markdown(particles::scene_keys())
                              : keys_as_text(particles::scene_keys()));
   return 0;
@@ -113,10 +113,10 @@ Command scene_command() {
   return {"scene",
           "Checks, shows and explains scene files",
           nullptr,
-          {command("check", "Validates a scene and says what it amounts to", check),
-           command("show", "Prints a scene with all its defaults", show),
-           command("list", "Lists the shipped scenes, which every command finds by their names", list),
-           command("keys", "Lists every key with unit, range, default and meaning", keys)}};
+          {command("check", "Validates a scene and says what it amounts to", check_scene),
+           command("show", "Prints a scene with all its defaults", show_scene),
+           command("list", "Lists the shipped scenes, which every command finds by their names", list_scenes),
+           command("keys", "Lists every key with unit, range, default and meaning", list_keys)}};
 }
 
 }  // namespace drumlin::apps
