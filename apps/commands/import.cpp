@@ -127,7 +127,7 @@ int import_foreign(const ImportOptions& options) {
     work_for_script("../importing/command.py", [&](const Json& so_far) {
       if (report = so_far; progress.due() && !report.empty())
         progress.show(fmt::format("import  {} snapshots", report.at("snapshots").dump()));
-      return given;
+      return so_far.empty() ? given : Json::object();
     });
     progress.finish();
     write_json(made / "run.json", report_of(description, *options.description, names, report));

@@ -22,7 +22,7 @@ struct InfoOptions {
 std::string text_of(const fs::path& folder, const Manifest& manifest) {
   std::uintmax_t bytes = 0;
   for (const auto& [name, entry] : manifest.files) bytes += entry.sum.bytes;
-  std::string text = fmt::format("{}: of drumlin {}, {}; {} files, {:.2g} MB\n", folder.string(),
+  std::string text = fmt::format("{}: of drumlin {}, {}; {} files, {:.1f} MB\n", folder.string(),
                                  manifest.command, manifest.complete ? "complete" : "unfinished",
                                  manifest.files.size(), 1e-6 * static_cast<double>(bytes));
   for (const std::string& edit : manifest.accepted) text += fmt::format("  accepted {}\n", edit);
@@ -41,9 +41,10 @@ int info(const InfoOptions& options) {
   for (const fs::path& folder : folders) try {
       const ResultFolder found = open_result_folder(folder);
       print_out(text_of(folder, *found.manifest));
-      if (folder.filename() == "measured")
+      if (found.manifest->command == "measure")
         check_source(found, open_result_folder(folder / ".."),
-                     fmt::format("drumlin measure {} --overwrite", folder.parent_path().string()));
+                     fmt::format("drumlin measure {} --overwrite",
+                                 fs::path(folder / "..").lexically_normal().string()));
       check_all_files(found);
     } catch (const InputError& error) {
       faults += (faults.empty() ? "" : "\n") + std::string(error.what());

@@ -6,7 +6,7 @@ import matplotlib.colors
 import matplotlib.pyplot as plt
 import numpy as np
 
-import quantities
+import quantity_table
 import style
 from drum_maps import read_grains, read_maps
 
@@ -95,7 +95,7 @@ def difference_of(field, first, second, logarithmic):
         return np.ma.log10(np.ma.masked_less_equal(second, 0)) - np.ma.log10(np.ma.masked_less_equal(first, 0))
     difference = second - first
     # Axes half a turn apart are one axis.
-    return difference - 180 * np.round(difference / 180) if quantities.field(field).compared == "half turns" else difference
+    return difference - 180 * np.round(difference / 180) if quantity_table.field(field).compared == "half turns" else difference
 
 
 def sheet(grids, header, field, label, logarithmic, names, reduced):

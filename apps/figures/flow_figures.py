@@ -11,7 +11,7 @@ import sys
 import matplotlib.colors
 import matplotlib.pyplot as plt
 import numpy as np
-import quantities
+import quantity_table
 import result_files
 import script
 import style
@@ -116,7 +116,7 @@ def profiles(folder, flow):
     axes[1].set_xlabel(style.axis_label("shear_rate"))
 
     for name, color in zip(("sigma_xx", "sigma_zz", "sigma_xz"), style.OTHERS):
-        axes[2].plot(columns[name], z, color=color, label=quantities.field(name).symbol())
+        axes[2].plot(columns[name], z, color=color, label=quantity_table.field(name).symbol())
     axes[2].legend()
     axes[2].set_xlabel(r"stress  [$\rho_0 g d$]")
 

@@ -6,7 +6,7 @@ import math
 import matplotlib.pyplot as plt
 import numpy as np
 
-import quantities
+import quantity_table
 import result_files
 import script
 import style
@@ -60,7 +60,7 @@ def curve(axes, frame, name, color, logarithmic):
     upright, values, half = frame.name == "height", frame.values[name], frame.values.get(name + "_ci99")
     if logarithmic:  # either sense of turning
         values = style.positive(np.abs(values))
-    axes.plot(*((values, frame.at) if upright else (frame.at, values)), "o-", color=color, label=quantities.field(name).symbol())
+    axes.plot(*((values, frame.at) if upright else (frame.at, values)), "o-", color=color, label=quantity_table.field(name).symbol())
     if half is not None:
         low = values - half
         if logarithmic:  # a band that reaches zero ends at the foot of the axis

@@ -40,7 +40,9 @@ if __name__ == "__main__":
     os.environ.setdefault("MPLBACKEND", "Agg")  # pictures are files: no display is asked for
     script, figures = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(__file__).resolve().parent
     sys.path[:0] = [str(script.parent), str(figures)]
-    sys.path.append(str(pathlib.Path(__file__).absolute().parents[2]))  # of a build tree it consists of links
+    # Before packages of the system, which may be another version of it; of a build tree it consists of links.
+    packages = next((k for k, path in enumerate(sys.path) if path.endswith("-packages")), len(sys.path))
+    sys.path.insert(packages, str(pathlib.Path(__file__).absolute().parents[2]))
     sys.argv = sys.argv[1:]
     try:
         if script.parent == figures:  # pages draw nothing

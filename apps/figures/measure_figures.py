@@ -6,7 +6,7 @@ import math
 import matplotlib.pyplot as plt
 import numpy as np
 
-import quantities
+import quantity_table
 import result_files
 import script
 import style
@@ -122,7 +122,7 @@ def stresses(run):
     depth_panel(axes, run, "sigma_zz")
     names = {"sigma_zz": style.PARTICLES, "sigma_xx": style.OTHERS[0], "sigma_xz": style.OTHERS[1]}
     for name, color in names.items():
-        draw(axes, run, name, color, quantities.field(name).symbol())
+        draw(axes, run, name, color, quantity_table.field(name).symbol())
     theta, nu = math.radians(float(run.header["theta_deg"])), run.scalar("nu_bulk")
     if math.isfinite(nu):
         z = np.array([min(run.z, default=0), 0])

@@ -8,7 +8,7 @@ import math
 import pathlib
 import sys
 
-import quantities
+import quantity_table
 import script
 import style
 from style import half_width_of, value_of
@@ -52,8 +52,8 @@ def draw_sides(axes, study, name, over):
         if chosen:
             axes.plot([p[0] for p in chosen], [p[1] for p in chosen], "s", color=style.CONTINUUM, markersize=8, markerfacecolor=face,
                       markeredgewidth=1.6, label=label)
-    axes.set_ylabel(quantities.SCALARS[name].axis_label())
-    axes.set_xlabel("speed of rotation  [rpm]" if over == "rotation_rpm" else quantities.SCALARS["Q"].axis_label())
+    axes.set_ylabel(quantity_table.SCALARS[name].axis_label())
+    axes.set_xlabel("speed of rotation  [rpm]" if over == "rotation_rpm" else quantity_table.SCALARS["Q"].axis_label())
     highest = [p[1] + (0 if math.isnan(p[2]) else p[2]) for p in ours] + [p[1] for p in flows + paper]
     if name != "theta_deg" and highest:
         axes.set_ylim(0, 1.15 * max(highest))

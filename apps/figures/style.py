@@ -13,7 +13,7 @@ import numpy as np
 
 import result_files
 import whole_file
-from quantities import axis_label
+from quantity_table import axis_label
 
 # Okabe and Ito's colours: told apart with any kind of colour vision, and in grey.
 PARTICLES = "#0072B2"

@@ -5,6 +5,7 @@ import contextlib
 import errno
 import os
 import pathlib
+import secrets
 
 
 class CannotWrite(OSError):
@@ -22,11 +23,10 @@ def aside(path):
     """Gives a binary stream. When all is written, its file takes the place of `path`; an error leaves neither a part nor a change.
     CannotWrite where the system does not take it; errors of files that are read meanwhile stay what they are."""
     path = pathlib.Path(path)
-    unfinished = path.with_name(f".drumlin-{os.getpid()}.part")  # what a kill leaves under such a name, the next call removes
+    unfinished = path.with_name(f".drumlin-{os.getpid()}-{secrets.token_hex(8)}.part")
     try:
         if path.exists() and not (path.is_file() or path.is_dir()):
             raise OSError(errno.EINVAL, "is a device, a FIFO or a socket, not a file")
-        unfinished.unlink(missing_ok=True)
         # Its name, and with it the kind of picture, is that of `path`.
         with open(path, "xb", opener=lambda _, flags: os.open(unfinished, flags, 0o666)) as stream:
             yield stream

@@ -11,8 +11,8 @@ namespace drumlin::apps {
 /// Throws IoError with what the script printed if it cannot be started or fails.
 void draw_figures(const std::string& script, const std::vector<std::string>& arguments);
 
-/// Runs a script of the Python package drumlin.study; returns what it printed. Throws InputError of that
-/// where it refuses its input, else as draw_figures().
+/// Runs a script of the Python package, by its path from drumlin/study; returns what it printed. Throws
+/// InputError of that where it refuses its input, else as draw_figures().
 std::string study_by_script(const std::string& script, const std::vector<std::string>& arguments);
 
 /// Runs a script that has this program work for it: each line that it prints is a wish in JSON, and `answer`

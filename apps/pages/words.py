@@ -2,7 +2,7 @@
 
 from markupsafe import Markup, escape
 
-import quantities
+import quantity_table
 
 # What a missed target tells about the physics.
 MEANING = {
@@ -21,7 +21,7 @@ MEANING = {
 
 def name(key):
     """The key itself where nothing better is known."""
-    known = quantities.SCALARS.get(key) or quantities.field(key)
+    known = quantity_table.SCALARS.get(key) or quantity_table.field(key)
     return key if known.label == key else Markup(known.in_html())
 
 
@@ -46,4 +46,4 @@ def the_side(content, which):
 
 def has_relative_error(field):
     """Decades and degrees have an arbitrary zero: an error relative to them says nothing."""
-    return not field.startswith("log10_") and quantities.field(field).compared != "half turns"
+    return not field.startswith("log10_") and quantity_table.field(field).compared != "half turns"

@@ -18,7 +18,6 @@ class Drumlin(CMakePackage):
     depends_on("tomlplusplus")
     depends_on("cli11")
     depends_on("boost")
-    depends_on("suite-sparse")
     depends_on("openssl")
     depends_on("zlib-api")
     depends_on("hdf5+mpi", when="+continuum")

@@ -141,7 +141,7 @@ class DiscDelassus {
 
   /// lambda_max(W_aa), the scale of the residual; of contacts without couples that push grains alone in parts
   /// of W_nn.
-  static constexpr double largest_in_W_nn = tangential_gain < dim == 2 && spin > ;
+  static constexpr double largest_in_W_nn = tangential_gain<(dim == 2 && spin)>;
   double largest_eigenvalue(int a) const {
     if (dim < 3 && !(coupled() && pushes_more(a))) return largest_in_W_nn / inverse_W_nn[a];
     return particles::largest_eigenvalue<dim>(block(a).matrix);

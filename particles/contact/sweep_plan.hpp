@@ -46,7 +46,7 @@ class SweepPlanner {
  public:
   /// Lets a pool share the work; the plan does not depend on it.
   void use(ThreadPool* pool) { loops_ = ParallelLoops(pool); }
-  /// Takes work space from a memory, in the frame that is open when pairs are planned.
+  /// Takes work space from a memory, in the scope that is open when pairs are planned.
   void use(WorkMemory* memory) {
     slice_of_contact_.use(memory), by_slice_.use(memory), colour_.use(memory), used_.use(memory);
   }

@@ -1,5 +1,5 @@
 // The laws of one contact, written once over the type of numbers. Included within a namespace that has the
-// operations on them: numbers.hpp, numbers-inl.h.
+// operations on them: laws.hpp, laws-inl.h.
 
 /// Friction above this is steep: what a step of the normal impulse does to friction outweighs the step
 /// itself.

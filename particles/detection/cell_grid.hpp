@@ -37,7 +37,7 @@ class CellGrid {
     std::int32_t first = 0;
   };
 
-  /// Takes work space from a memory, in the frame that is open when grains are sorted.
+  /// Takes work space from a memory, in the scope that is open when grains are sorted.
   void use(WorkMemory* memory) { places_.use(memory), sorted_.use(memory); }
   /// Takes the grains listed in `members`, in linear time.
   void sort(const SearchedState& state, std::span<const std::int32_t> members, double cell_size);

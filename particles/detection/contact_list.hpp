@@ -22,7 +22,7 @@ struct DetectionInput {
   Period period;
 };
 
-/// A grain that impacts have collided harder than a search allowed for: 2 h |change of velocity|.
+/// A grain that impacts have hit harder than a search allowed for: 2 h |change of velocity|.
 struct CollidedDisc {
   std::int32_t grain = 0;
   double displacement = 0;
@@ -40,25 +40,25 @@ class ContactDetection {
  public:
   /// Lets a pool share the work; the result does not depend on it.
   void use(ThreadPool* pool) { loops_ = ParallelLoops(pool), pairs_.use(pool); }
-  /// Takes the candidates, and what finds them, from a memory: they end with the frame in which they were
+  /// Takes the candidates, and what finds them, from a memory: they end with the scope in which they were
   /// found.
   void use(WorkMemory* memory) { grids_.use(memory), pairs_.use(memory), candidates_.use(memory); }
   /// The pairs stand until the next search.
   std::span<const Candidate> find(const Bodies& bodies, std::span<const double> v_x,
                                   std::span<const double> v_z, const DetectionInput& input);
 
-  /// Adds the pairs that collided grains may meet, now that v_x and v_z are the velocities: with a wall those
+  /// Adds the pairs that hit grains may meet, now that v_x and v_z are the velocities: with a wall those
   /// with gap < margin + 2 h a + J_i / 2, with another grain k
   ///   gap < 2 margin + 2 h a + J_i / 2 + displacement_bound(k),
-  /// J_i the displacement of the collided grain i, which becomes its bound. So all pairs are found that close
-  /// within the step, if no grain is collided harder than (bound + margin) / (2 h) again. Looks around these
+  /// J_i the displacement of the hit grain i, which becomes its bound. So all pairs are found that close
+  /// within the step, if no grain is hit harder than (bound + margin) / (2 h) again. Looks around these
   /// grains only, at the positions of the last search; at all grains where that would be most of them, and
   /// then keeps the pairs found before.
   /// Returns whether the candidates are others than before.
   bool find_around(std::span<const CollidedDisc> collided, const Bodies& bodies, std::span<const double> v_x,
                    std::span<const double> v_z, const DetectionInput& input);
   std::span<const Candidate> candidates() const { return {candidates_.data(), candidates_.size()}; }
-  /// Positions among the candidates, ascending, of the pairs that the last search around collided grains has
+  /// Positions among the candidates, ascending, of the pairs that the last search around hit grains has
   /// added; empty where it had to begin anew.
   std::span<const std::int32_t> added() const { return added_; }
 
@@ -79,7 +79,7 @@ class ContactDetection {
   void weigh_at_wall(const NearGrain& grain, std::int32_t shape, double farthest, const DetectionInput&);
   void find_near_walls(double fastest, double largest, const DetectionInput& input);
 
-  /// Whether searches around the collided grains alone, as far as `reach`, look at fewer grains than there
+  /// Whether searches around the hit grains alone, as far as `reach`, look at fewer grains than there
   /// are.
   bool is_local(std::span<const CollidedDisc> collided, double reach) const;
   void add_around(const CollidedDisc&, double range, const Bodies& bodies, std::span<const double> v_x,
@@ -105,7 +105,7 @@ class ContactDetection {
   std::vector<WeighedPair> weighed_;  // of grains and walls
   std::vector<double> bounds_;        // 2 h a_i of each body
   WorkArray<Candidate> candidates_;
-  std::vector<Candidate> found_;     // around collided grains
+  std::vector<Candidate> found_;     // around hit grains
   std::vector<std::int32_t> added_;  // positions of those of them that were new
 };
 

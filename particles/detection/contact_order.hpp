@@ -17,7 +17,7 @@ class ContactOrder {
     loops_ = ParallelLoops(pool);
     planner_.use(pool);
   }
-  /// Takes work space from a memory, in the frame that is open when pairs are sorted.
+  /// Takes work space from a memory, in the scope that is open when pairs are sorted.
   void use(WorkMemory* memory) { planner_.use(memory); }
   /// Finds the order of `pairs`, and their plan: slices along the longer side of the packing (along z in a
   /// periodic domain; in a cell, folded there).

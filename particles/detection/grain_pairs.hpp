@@ -44,7 +44,7 @@ struct PairRule {
 class GrainPairs {
  public:
   void use(ThreadPool* pool) { loops_ = ParallelLoops(pool); }
-  /// Takes what a search needs beside the list from a memory, in a frame that lasts until keep().
+  /// Takes what a search needs beside the list from a memory, in a scope that lasts until keep().
   void use(WorkMemory* memory);
 
   /// Lists the pairs closer than `range`, as they are now, from grids that were sorted for it. The grids have

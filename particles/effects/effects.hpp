@@ -16,8 +16,8 @@
 //   turn_freely(bodies, h): spins after a step without contacts
 //   attraction(pair, materials): a force that pulls two surfaces together, up to a gap of `range`
 //   friction(mu, sliding velocity, pair, materials): what becomes of the coefficient of friction
-//   coefficient(pair, materials): the second one of the contact law
 //   sliding_friction(mu, pair, materials): what becomes of it where the contact slides, or an impact begins
+//   coefficient(pair, materials): the second one of the contact law
 //   radius_ratio(), couple_velocity(), wall_part(): a couple, the third unknown of a contact
 //   work(before, now, h): what a step gave the grains, beside the work of attraction and couple
 // A member that a law lacks costs nothing, nor does a law that the scene does not name: the compiler knows

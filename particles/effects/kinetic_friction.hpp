@@ -21,7 +21,7 @@ struct KineticFriction : PairKeys<KineticFriction> {
                               *sentence =
                                   "Friction of contacts that slide; effects.friction is that of others.";
   static constexpr const char* modest_text = "0.3";
-  static Allowed allowed() { return at_least(0, 100); }
+  static Allowed allowed() { return above(0, 100); }  // at 0 a sliding contact looks like one that sticks
   static KineticFriction modest() { return {{0.3, 0.3}}; }
   void check(const auto& scene, auto refuse) const {
     const auto& friction = scene.effects.friction;

@@ -46,7 +46,7 @@ struct RollingLaw {
                           double time_step) {
     return pair.j < 0 ? bodies.radius[pair.i] * walls.displacement[-1 - pair.j].angle / time_step : 0;
   }
-  /// Rolling velocity of a pair with that radius_ratio.
+  /// Rolling velocity of a pair with that ratio of radii.
   static double couple_velocity(const Candidate& pair, const Bodies& bodies, const WallStep& walls,
                                 double radius_ratio, double time_step) {
     const double rim_j = pair.j < 0 ? wall_part(pair, bodies, walls, time_step)

@@ -17,13 +17,13 @@ constexpr std::size_t least_piece = std::size_t{1} << 16;
 
 WorkMemory::Scope::Scope(WorkMemory* memory) : memory_(memory) {
   if (memory == nullptr) return;
-  memory->frames_.push_back({++memory->frames_so_far_, memory->piece_, memory->used_});
+  memory->scopes_.push_back({++memory->scopes_so_far_, memory->piece_, memory->used_});
 }
 
 WorkMemory::Scope::~Scope() {
   if (memory_ == nullptr) return;
-  memory_->piece_ = memory_->frames_.back().piece, memory_->used_ = memory_->frames_.back().used;
-  memory_->frames_.pop_back();
+  memory_->piece_ = memory_->scopes_.back().piece, memory_->used_ = memory_->scopes_.back().used;
+  memory_->scopes_.pop_back();
 }
 
 std::size_t WorkMemory::bytes() const {
@@ -33,7 +33,7 @@ std::size_t WorkMemory::bytes() const {
 }
 
 void WorkMemory::release() {
-  if (!frames_.empty()) return;
+  if (!scopes_.empty()) return;
   next_piece_ = std::max(next_piece_, bytes());
   pieces_.clear();
 }
@@ -50,7 +50,7 @@ void WorkMemory::add_piece(std::size_t bytes) {
 }
 
 void* WorkMemory::take(std::size_t bytes) {
-  if (frames_.empty()) throw std::logic_error("work memory is taken outside of a frame");
+  if (scopes_.empty()) throw std::logic_error("work memory is taken outside of a scope");
   bytes = (bytes + boundary - 1) / boundary * boundary;
   if (piece_ == 0 && used_ == 0 && pieces_.size() > 1) {  // nothing is taken: from now on one piece
     const std::size_t all = this->bytes();

@@ -1,5 +1,5 @@
 #pragma once
-// Memory that the phases of a step use one after the other: a stack of frames, and arrays that live in them.
+// Memory that the phases of a step use one after the other: a stack of scopes, and arrays that live in them.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -13,10 +13,10 @@
 
 namespace drumlin::particles {
 
-/// A stack of frames. What is taken within a frame ends with it; its bytes go to the next one. Of one thread.
+/// A stack of scopes. What is taken within a scope ends with it; its bytes go to the next one. Of one thread.
 class WorkMemory {
  public:
-  /// The time from its construction to its end; frames stand within one another. Without memory it does
+  /// The time from its construction to its end; scopes stand within one another. Without memory it does
   /// nothing.
   class Scope {
    public:
@@ -29,16 +29,16 @@ class WorkMemory {
     WorkMemory* memory_;
   };
 
-  /// Bytes of the innermost frame, not set, on a boundary of 64. Throws std::logic_error if no frame is open.
+  /// Bytes of the innermost scope, not set, on a boundary of 64. Throws std::logic_error if no scope is open.
   void* take(std::size_t bytes);
-  /// The innermost frame, by a number that no other one has had; 0: none is open.
-  std::uint64_t frame() const { return frames_.empty() ? 0 : frames_.back().number; }
-  bool is_open(std::uint64_t frame) const {
-    return std::any_of(frames_.rbegin(), frames_.rend(), [=](const Mark& m) { return m.number == frame; });
+  /// The innermost scope, by a number that no other one has had; 0: none is open.
+  std::uint64_t scope() const { return scopes_.empty() ? 0 : scopes_.back().number; }
+  bool is_open(std::uint64_t scope) const {
+    return std::any_of(scopes_.rbegin(), scopes_.rend(), [=](const Mark& m) { return m.number == scope; });
   }
   /// What it holds, used or not.
   std::size_t bytes() const;
-  /// Gives everything back to the system until it is needed again; does nothing within a frame.
+  /// Gives everything back to the system until it is needed again; does nothing within a scope.
   void release();
 
  private:
@@ -52,18 +52,18 @@ class WorkMemory {
   };
   struct Mark {
     std::uint64_t number = 0;
-    std::size_t piece = 0, used = 0;  // where the frame begins
+    std::size_t piece = 0, used = 0;  // where the scope begins
   };
   void add_piece(std::size_t bytes);
 
   std::vector<Piece> pieces_;
-  std::vector<Mark> frames_;
+  std::vector<Mark> scopes_;
   std::size_t piece_ = 0, used_ = 0;  // what is taken: the pieces before this one, and so much of it
-  std::uint64_t frames_so_far_ = 0;
+  std::uint64_t scopes_so_far_ = 0;
   std::size_t next_piece_ = 0;  // bytes, at least: what was given back
 };
 
-/// An array whose entries are not set when it gets longer. In a WorkMemory it is empty again when the frame
+/// An array whose entries are not set when it gets longer. In a WorkMemory it is empty again when the scope
 /// has ended in which it was made; on its own it keeps what it has.
 template <class T>
 class WorkArray {
@@ -121,7 +121,7 @@ class WorkArray {
       T* const to = static_cast<T*>(memory_->take(bytes));
       if (kept > 0) std::memcpy(to, data_, kept * sizeof(T));
       data_ = to;
-      scope_ = memory_->frame();
+      scope_ = memory_->scope();
     } else {
       if (kept == 0) own_.reset();
       std::unique_ptr<T, Free> to(static_cast<T*>(::operator new (bytes + bytes / 16, std::align_val_t{64})));

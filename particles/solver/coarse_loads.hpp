@@ -36,7 +36,7 @@ class StripProblem;
 /// Scales impulses; keeps workspace only.
 class CoarseLoads {
  public:
-  /// Takes what it keeps of the bodies from a memory: it ends with the frame of lay_out().
+  /// Takes what it keeps of the bodies from a memory: it ends with the scope of lay_out().
   void use(WorkMemory* memory) { records_.use(memory); }
   /// Lays the nodes of the field over the bodies of the contacts (i, j), which have been packed in strips;
   /// body positions.x.size() is the fixed one.

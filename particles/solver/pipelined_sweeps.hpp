@@ -41,7 +41,7 @@ void sweep_alone(const StripShare& share, int sweeps, Part part) {
 }
 
 /// strips: tells first_strip(rank, thread, threads), and the ranks() that share them, as StripProblem does.
-/// Whether a pipeline is taken follows from pools of `size` threads: all ranks must agree.
+/// Whether sweeps are pipelined follows from the `size` of the pool: all ranks must agree.
 template <class Strips>
 StripShare share_of(const Strips& strips, int thread, int threads, int size) {
   const int rank = strips.rank(), ranks = strips.ranks();

@@ -27,7 +27,7 @@ class StripProblem {
   /// Parts of about as many blocks each, whatever the number of threads and ranks; ranks have whole parts.
   static constexpr int parts = 16;
 
-  /// Takes its blocks and bodies from a memory: they end with the frame of pack().
+  /// Takes its blocks and bodies from a memory: they end with the scope of pack().
   void use(WorkMemory* memory) {
     blocks_.use(memory), contact_.use(memory), bodies_.use(memory), before_.use(memory);
     place_.use(memory), kept_.use(memory);

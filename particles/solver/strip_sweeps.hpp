@@ -21,9 +21,9 @@ inline constexpr int least_pipelined_contacts = 30000;
 template <class T>
 struct SweepState {
   int sweeps = 0;
-  int pipeline =
+  int sweeps_at_once =
       1;  ///< sweeps at once: momentum goes on through a pipeline and is judged by its steps afterwards
-  int pipelines = 0;  ///< done
+  int rounds = 0;  ///< done
   Momentum momentum;
   T beta = 0;
   bool finite = true;
@@ -35,7 +35,7 @@ struct SweepState {
 };
 
 /// A thread of a pool, of which so many work and so many are.
-struct TeamPlace {
+struct PoolPlace {
   int thread = 0, threads = 1, size = 1;
 };
 
@@ -56,7 +56,7 @@ void load_share(Strips& strips, const StripShare& share, bool first_thread, Meet
 /// Sweeps on to `until` and, where it is due, computes the residuals of the strips; one thread's share of a
 /// pool, which meets the others by calling join().
 template <class T, class Strips, class Join>
-void sweep_share(Strips& strips, const TeamPlace& at, int until, bool last, SweepExtrapolation how,
+void sweep_share(Strips& strips, const PoolPlace& at, int until, bool last, SweepExtrapolation how,
                  const SolveEnd& end, SweepState<T>& state, Join join) {
   const bool accelerated = how != SweepExtrapolation::none, first_thread = at.thread == 0;
   const StripShare share = share_of(strips, at.thread, at.threads, at.size);
@@ -70,8 +70,8 @@ void sweep_share(Strips& strips, const TeamPlace& at, int until, bool last, Swee
   SweepState<T> own = state;
   if (!std::exchange(own.loaded, true)) load_share(strips, share, first_thread, meet);
   while (own.sweeps < until && own.finite) {
-    const int sweeps = std::min(own.pipeline, until - own.sweeps),
-              slots = own.pipelines++ % 2 * longest_pipeline;
+    const int sweeps = std::min(own.sweeps_at_once, until - own.sweeps),
+              slots = own.rounds++ % 2 * longest_pipeline;
     std::array<T, longest_pipeline> betas{own.beta};
     Momentum expected = own.momentum;
     for (int s = 1; s < sweeps; ++s) betas[s] = static_cast<T>(expected.next_of_falling());
@@ -169,7 +169,7 @@ SolveReport sweep_in_strips(const Problem& problem, const StoppingRule& rule, So
   SweepState<T> state;
   state.momentum = Momentum(rule.tolerance, static_cast<std::size_t>(problem.contacts()));
   if (accelerated && !strips.has_driven() && problem.contacts() >= least_pipelined_contacts)
-    state.pipeline = longest_pipeline;
+    state.sweeps_at_once = longest_pipeline;
   const SweptBlocks blocks{[&] {
                              strips.gather_estimates();
                              return strips.residual_estimate();

@@ -71,7 +71,7 @@ HWY_INLINE contact_law::Coefficients<hn::Vec<Lanes<T>>, Law> coefficients(const 
     return load_numbers<Law::coefficients>(block.mu, k);
 }
 
-/// Normals and levers of contacts.
+/// Normals and ratios of radii of contacts.
 template <class T, class Law>
 HWY_INLINE contact_law::ContactFrame<hn::Vec<Lanes<T>>> frame_of(const ContactBlock<T, Law>& block,
                                                                  std::size_t k) {
@@ -218,12 +218,12 @@ HWY_INLINE auto inverse_eigenvalue(const ContactBlock<T, Law>& block, std::size_
   const Lanes<T> d;
   if constexpr (Law::unknowns < 3) {
     return hn::Load(d, &block.inverse_W_nn[k]) *
-           hn::Set(d, T(1) / T(tangential_gain < Law::unknowns == 2 && spin >));
+           hn::Set(d, T(1) / T(tangential_gain<(Law::unknowns == 2 && spin)>));
   } else {
     const auto w = I.inverse_mass + J.inverse_mass, radius_ratio = hn::Load(d, &block.radius_ratio[k]);
     const auto turns = contact_law::turns_of(radius_ratio, I, J);
     const auto largest = contact_law::larger_eigenvalue(
-        w + (w + w), turns[1] - turns[0],
+        w * hn::Set(d, T(tangential_gain<spin>)), turns[1] - turns[0],
         radius_ratio * turns[0] + (hn::Set(d, T(1)) - radius_ratio) * turns[1]);
     // Positions that are filled up have none.
     return hn::Set(d, T(1)) / hn::Max(largest, hn::Set(d, T(1e-15)));

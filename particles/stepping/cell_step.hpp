@@ -23,7 +23,8 @@ Point cell_answer(const Problem& problem, const Velocities& bodies) {
 }
 
 /// Keeps what the impacts of a step push the cell with; it answers in the next step.
-inline void set_collided(std::span<const ImpactImpulse> impacts, const Bodies& bodies, CellState& cell) {
+inline void keep_impacts_of_cell(std::span<const ImpactImpulse> impacts, const Bodies& bodies,
+                                 CellState& cell) {
   cell.struck_x = cell.struck_z = 0;
   for (const ImpactImpulse& s : impacts) {
     const Point arm = arm_of(bodies, s.i, s.j, 0, {s.n_x, s.n_z});

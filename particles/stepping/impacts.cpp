@@ -295,7 +295,7 @@ bool Impacts::take_in_neighbours(double time) {
   return pass_.contacts.size() > before;
 }
 
-void Impacts::list_strikes(StepContacts& contacts) {
+void Impacts::list_impacts(StepContacts& contacts) {
   for (const ImpactContact& c : pass_.contacts) {
     if (c.normal == 0) continue;
     ++count_;
@@ -314,7 +314,7 @@ void Impacts::collide(const Event& event, StepContacts& contacts) {
     pass_.compress();
   } while (pass_.contacts.size() > 1 && take_in_neighbours(event.time));
   pass_.expand(work_);
-  list_strikes(contacts);
+  list_impacts(contacts);
   closings_.clear();
   for (ImpactBody& body : pass_.bodies) {
     body.shift = body.shift_at(event.time);
@@ -354,7 +354,7 @@ void Impacts::give_back(const ImpactOutput& output) {
 }
 
 bool Impacts::go_on(const ImpactInput& input) {
-  if (!input.step.driven.empty()) return true;  // walls have been collided too
+  if (!input.step.driven.empty()) return true;  // walls have been hit too
   begin(input);
   has_collided_.assign(input.step.bodies.count(), 0);
   for (const CollidedGrain& collided : collided_) has_collided_[collided.grain] = 1;

@@ -14,14 +14,14 @@
 #include "particles/bodies/bodies.hpp"
 #include "particles/parallel/parallel_loops.hpp"
 #include "particles/parallel/work_memory.hpp"
-#include "particles/stepping/impulse_cache.hpp"
 #include "particles/stepping/impact_pass.hpp"
+#include "particles/stepping/impulse_cache.hpp"
 #include "particles/stepping/meeting.hpp"
 #include "particles/stepping/step_contacts.hpp"
 
 namespace drumlin::particles {
 
-/// A grain that impacts have collided: the changes of its velocities and of its shift (FreeMotion), and its
+/// A grain that impacts have hit: the changes of its velocities and of its shift (FreeMotion), and its
 /// velocity before.
 struct CollidedGrain {
   std::int32_t grain = 0;
@@ -40,7 +40,7 @@ struct ImpactInput {
 };
 
 /// What they change: velocities and spins of the bodies, those of the step, the shifts of its free motion,
-/// the velocities of driven walls; impacts are added to.
+/// the velocities of driven walls; their impulses are added to the list of impacts.
 struct ImpactOutput {
   Bodies& bodies;
   std::vector<PathShift>& shift;
@@ -52,14 +52,14 @@ class Impacts {
  public:
   /// Lets a pool share the work; the result does not depend on it.
   void use(ThreadPool* pool) { loops_ = ParallelLoops(pool); }
-  /// Takes the pairs of each body from a memory, in the frame that is open in resolve().
+  /// Takes the pairs of each body from a memory, in the scope that is open in resolve().
   void use(WorkMemory* memory) {
     first_.use(memory), next_.use(memory), met_.use(memory), in_pass_.use(memory);
   }
   void resolve(const ImpactInput& input, const ImpactOutput& output);
 
   /// Whether it would have anything to do once more, after a search for more pairs: only at grains that the
-  /// last call collided.
+  /// last call hit.
   bool go_on(const ImpactInput& input);
 
   // Of the last call of resolve().
@@ -71,7 +71,7 @@ class Impacts {
   int unresolved() const { return unresolved_; }
 
  private:
-  /// A pair that meets at a time, if neither side has been collided since that was found.
+  /// A pair that meets at a time, if neither side has been hit since that was found.
   struct Event {
     double time = 0;
     std::int32_t pair = 0;
@@ -94,7 +94,7 @@ class Impacts {
   Point velocity_before(std::int32_t body) const;
   Point velocity(std::int32_t body) const;
   PathShift shift(std::int32_t body) const;
-  /// When a side of a pair was collided last within the step.
+  /// When a side of a pair was hit last within the step.
   double collided_at(const Candidate& pair) const;
   int passes_of(const Candidate& pair) const;
   /// Velocity that forces give a body in a unit of time.
@@ -118,7 +118,7 @@ class Impacts {
   void collide(const Event& event, StepContacts&);
   /// Takes in the touching pairs that the pass has made close; false if there are none.
   bool take_in_neighbours(double time);
-  void list_strikes(StepContacts&);
+  void list_impacts(StepContacts&);
   void give_back(const ImpactOutput&);
   template <class Visit>
   void each_pair_of(std::int32_t body, Visit visit) const {

@@ -23,8 +23,8 @@ void put_in_order(ImpulseCache&);
 /// Whether a pair carried a load.
 bool was_loaded(const ImpulseCache&, const Candidate& pair);
 
-/// Normal impulses that the pairs of a step carried in the last one; 0 of a new pair. Refers to a memory and
-/// to a warm_starts of it.
+/// Normal impulses that the pairs of a step carried in the last one; 0 of a new pair. Refers to a cache and
+/// to the WarmStarts that looked in it.
 class SavedLoads {
  public:
   SavedLoads() = default;
@@ -39,12 +39,12 @@ class SavedLoads {
   double scale_ = 1;
 };
 
-/// Finds contacts in a memory; keeps workspace only.
+/// Finds contacts in a cache; keeps workspace only.
 class WarmStarts {
  public:
   /// Lets a pool share the work; the result does not depend on it.
   void use(ThreadPool* pool) { loops_ = ParallelLoops(pool); }
-  /// Takes what it finds from a memory: it ends with the frame of find().
+  /// Takes what it finds from a memory: it ends with the scope of find().
   void use(WorkMemory* memory) { place_.use(memory); }
   /// Finds pairs; those that follow one another in the order of (i, j) without a search.
   void find(const ImpulseCache&, std::span<const Candidate> pairs);

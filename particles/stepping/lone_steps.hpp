@@ -32,7 +32,11 @@ void take_lone_steps(const StepInput& step, const ImpulseCache& memory, StepStat
     const Point other{change.x - w * (pair.n_x * r_n + pair.n_z * r_t),
                       change.z - w * (pair.n_z * r_n - pair.n_x * r_t)};
     if (std::hypot(other.x, other.z) > alone * w * r_n || !was_loaded(memory, pair)) continue;
-    const auto lone = lone_step(step, pair, mu);
+    auto lone = lone_step(step, pair, mu);
+    if (!lone) continue;
+    if (const double sliding = step.sliding_friction(mu, pair);
+        sliding < mu && std::abs(lone->tangential) >= (1 - 1e-6) * mu * lone->normal)
+      lone = lone_step(step, pair, sliding);
     if (!lone) continue;
     r_n = lone->normal / w, r_t = lone->tangential / w;
     impulses[dim * a] = r_n;

@@ -226,7 +226,7 @@ void place_at_wall(const StepInput& step, bool alone, Candidate& pair) {
   }
 }
 
-void place_struck(const StepInput& step, Candidate& pair) {
+void place_collided(const StepInput& step, Candidate& pair) {
   const auto& v_x = step.bodies.v_x;
   const auto& v_z = step.bodies.v_z;
   const double gap_before = pair.gap;
@@ -248,7 +248,7 @@ void place_pairs(const StepInput& step, std::span<const char> beside_grains, std
       place_at_wall(step, !beside_grains[pair.i], pair);
     } else if ((shifted[pair.i] | shifted[pair.j]) != 0 &&
                (shift[pair.i].x != shift[pair.j].x || shift[pair.i].z != shift[pair.j].z)) {
-      place_struck(step, pair);
+      place_collided(step, pair);
     } else if (pair.gap <= 0) {
       pair.gap = 0;
     } else if (const Point u{v_x[pair.i] - v_x[pair.j] - pair.wall_v_x,

@@ -60,7 +60,7 @@ class PairPath {
   Point start_, velocity_, acceleration_;
 };
 
-/// Whether a grain that no impact has collided stays clear of a wall of which it is not far, told by its
+/// Whether a grain that no impact has hit stays clear of a wall of which it is not far, told by its
 /// normal and the curvature of containers alone. False of some that do.
 bool stays_apart(const StepInput& step, const Candidate& pair);
 
@@ -70,10 +70,10 @@ void turn_wall_velocity(const Surfaces& now, const Point& centre, Candidate& pai
 
 /// Gives pairs the gaps and normals with which the contact problem of a step takes them: of pairs that meet
 /// within the step those of the position where they meet, of discs that pass each other those of where they
-/// are nearest, since a plane through the surfaces as they are now would stop them; of collided pairs those
+/// are nearest, since a plane through the surfaces as they are now would stop them; of hit pairs those
 /// at the end of their paths. The gap is that along the normal, from where the paths begin: with any normal,
 /// gap + (displacement within the step) . normal >= 0 excludes an overlap at the end. It is negative of
-/// collided pairs alone, whose paths begin within each other. A wall that a grain does not reach on its path
+/// hit pairs alone, whose paths begin within each other. A wall that a grain does not reach on its path
 /// stops nothing. `beside_grains`: of each grain, whether it has a pair with another grain; `shifted`:
 /// whether its path begins elsewhere than it is.
 void place_pairs(const StepInput& step, std::span<const char> beside_grains, std::span<const char> shifted,

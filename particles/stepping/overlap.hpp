@@ -49,7 +49,7 @@ class OverlapSearch {
  public:
   /// Lets a pool share the work; the result does not depend on it.
   void use(ThreadPool* pool) { loops_ = ParallelLoops(pool); }
-  /// Takes the pairs from a memory: they end with the frame of find().
+  /// Takes the pairs from a memory: they end with the scope of find().
   void use(WorkMemory* memory) { pairs_.use(memory); }
 
   /// Overlap of the loaded contacts. `lost` receives the first grain that left its container.

@@ -38,7 +38,7 @@ template <class Problem>
 void deform_cell(const StepInput& step, const MovingState& state, StepState<Problem>& s) {
   CellState& cell = state.cell->state;
   if (step.cell.pressed()) {
-    set_collided(s.contacts.impacts, state.bodies, cell);
+    keep_impacts_of_cell(s.contacts.impacts, state.bodies, cell);
     const Point change = cell_answer(s.problem, s.solution.velocities.bodies);
     const double before = s.energy ? kinetic_energy(state.bodies) : 0;
     change_rates_in_step(change, step.time_step, cell, state.bodies);

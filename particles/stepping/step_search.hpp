@@ -29,7 +29,7 @@ inline DetectionInput detection_input(const StepInput& step) {
           step.laws.period};
 }
 
-/// The grains that impacts have collided harder than the search for pairs allowed for; false if none.
+/// The grains that impacts have hit harder than the search for pairs allowed for; false if none.
 template <class Problem>
 bool find_collided(const StepInput& step, StepState<Problem>& s) {
   s.collided.clear();

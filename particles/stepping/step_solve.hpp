@@ -19,7 +19,11 @@ bool let_slide(const StepInput& step, double (*mu)(double of_contact, double sli
   constexpr double nearly = 1e-6;  // as single precision leaves them
   bool any = false;
   if constexpr (Problem::dim >= 2) {
-    if (!step.laws.kinetic_friction) return false;
+    bool has_law = false;
+    each_law(step.laws, [&](const auto& law) {
+      has_law |= requires(const Candidate& pair) { law.sliding_friction(0.0, pair, step.materials()); };
+    });
+    if (!has_law) return false;
     for (std::size_t a = 0; a < s.contacts.pairs.size(); ++a) {
       double& own = s.problem.mu[Problem::Law::coefficients * a];
       const double sliding = step.sliding_friction(own, s.contacts.pairs[a]);
@@ -47,9 +51,9 @@ void solve_pairs(const StepInput& step, ContactSolver<Problem> solver, Stopwatch
   let_slide(
       step, [](double, double sliding) { return sliding; }, s);
   do {
-    const int sweeps = report.solve.sweeps;
+    const SolveReport before = report.solve;
     report.solve = solver(s.problem, s.solver.rule, s.work, s.solution);
-    report.solve.sweeps += sweeps;
+    report.solve.sweeps += before.sweeps, report.solve.seconds += before.seconds;
   } while (let_slide(
       step, [](double of_contact, double) { return of_contact; }, s));
   (void)watch.lap();

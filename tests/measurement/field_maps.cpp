@@ -270,6 +270,11 @@ TEST(Quantities, HaveWordsInTheTableWhateverIsMeasured) {
     EXPECT_NE(quantity_words(field.name).meaning, "") << field.name;
     EXPECT_EQ(field.period, std::string(field.name).ends_with("axis_angle_deg") ? 180 : 0) << field.name;
   }
+  for (const Quantity& row : quantities()) {
+    EXPECT_NE(row.meaning, "") << row.name;
+    EXPECT_EQ(row.name.find("NAME") == row.name.npos, row.meaning.find("NAME") == row.meaning.npos)
+        << row.name;
+  }
   const QuantityWords made = quantity_words("log10_I_particles");
   EXPECT_EQ(made.unit, "decades");
   EXPECT_EQ(made.meaning, "decimal logarithm of the inertial number, of the particles");

@@ -44,7 +44,7 @@ def test_the_heads_of_profiles_say_what_they_hold(results, file):
 
 
 def test_the_table_of_quantities_has_labels_that_figures_and_pages_can_show():
-    quantities = drumlin.plot.figure_module("quantities")
+    quantities = drumlin.plot.figure_module("quantity_table")
     names = [name for name in quantities.FIELDS if "NAME" not in name] + ["log10_I", "sigma_rt_kinetic"]
     rows = [*map(quantities.field, names), *quantities.SCALARS.values()]
     mathtext = matplotlib.mathtext.MathTextParser("path")

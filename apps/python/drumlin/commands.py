@@ -108,6 +108,8 @@ def _table():
 
 def _words(name, *positional, **options):
     """The words of a command for these values of its options."""
+    if name not in _table() and positional and f"{name} {positional[0]}" in _table():
+        name, positional = f"{name} {positional[0]}", positional[1:]
     known, words = _table().get(name), [*name.split(), *positional]
     if known is None:
         raise InputError(f"no command is called {name!r} (there are {', '.join(_table())})")

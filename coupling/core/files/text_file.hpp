@@ -36,7 +36,7 @@ class AtomicFile {
   Descriptor content_;
 };
 
-/// Writes `content`, text or not, as a AtomicFile.
+/// Writes `content`, text or not, as an AtomicFile.
 void replace_file(const std::filesystem::path& file, std::string_view content,
                   const std::filesystem::path& previous = {});
 

@@ -36,9 +36,8 @@ struct MapValues : PlaneInvariants, SharedFields {
 struct MapQuantity {
   std::string name;
   double MapValues::*value;
-  double MapSums::Snapshots::*needs = nullptr;  ///< of the snapshots; absent where it is 0
-  double period = 0;                            ///< of its values, 0: none; known_fields() sets it
-  bool displaced = false;                       ///< of the motion by displacements
+  double period = 0;       ///< of its values, 0: none; known_fields() sets it
+  bool displaced = false;  ///< of the motion by displacements
 };
 /// The fields that the snapshots tell of.
 std::vector<MapQuantity> known_fields(const MapSums::Snapshots& all);

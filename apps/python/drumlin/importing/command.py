@@ -38,7 +38,8 @@ def tell(**words):
 
 
 def main():
-    sys.stdout.reconfigure(encoding="utf-8", errors="surrogateescape")
+    for stream in (sys.stdin, sys.stdout):
+        stream.reconfigure(encoding="utf-8", errors="surrogateescape")
     np.seterr(all="ignore")  # what is too large is refused
     given = tell()
     output = pathlib.Path(given["output"])
