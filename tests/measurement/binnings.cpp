@@ -124,11 +124,11 @@ Snapshot random_network() {
   return snapshot;
 }
 
-constexpr double spacing = 0.5, pressure = 3, turning = 0.8;
+constexpr double spacing = 0.5, pressure = 3, couple_stress = 0.8;
 
 /// A square lattice of touching discs in a cell without borders, in one motion. All contacts carry the same
-/// force, so that the stress is pressure times the unit matrix and `turning` times the matrix of a quarter
-/// turn: the same in all axes.
+/// force, so that the stress is pressure times the unit matrix and `couple_stress` times the matrix of a
+/// quarter turn: the same in all axes.
 Snapshot uniform_lattice() {
   Snapshot snapshot;
   snapshot.time_step = 0.01;
@@ -136,7 +136,7 @@ Snapshot uniform_lattice() {
   snapshot.cell = SnapshotCell{0, 0, side, 0, 0, 0, 0};
   constexpr auto count = static_cast<std::int32_t>(side / spacing);
   const double normal = pressure * spacing * snapshot.time_step,
-               shear = turning * spacing * snapshot.time_step;
+               shear = couple_stress * spacing * snapshot.time_step;
   for (std::int32_t column = 0; column < count; ++column)
     for (std::int32_t row = 0; row < count; ++row) {
       const std::int32_t i = column * count + row;
@@ -149,7 +149,7 @@ Snapshot uniform_lattice() {
 }
 
 double trace(const Tensor<2>& t) { return t[0][0] + t[1][1]; }
-double turn(const Tensor<2>& t) { return t[0][1] - t[1][0]; }  // with the trace, what no axes change
+double moment_of(const Tensor<2>& t) { return t[0][1] - t[1][0]; }  // with the trace, what no axes change
 double energy(const Spread<2>& motion) { return motion.product(0, 0) + motion.product(1, 1); }
 
 TEST(Binnings, AddUpToTheWhole) {
@@ -188,7 +188,7 @@ TEST(Binnings, AddUpToTheWhole) {
       expect(sum.motion.weight, motion.weight, 1e-12, motion.weight);
       expect(energy(sum.motion), energy(motion), 1e-12, energy(motion));
       expect(trace(sum.force_branch), trace(whole.force_branch), 1e-12, forces);
-      expect(turn(sum.force_branch), turn(whole.force_branch), 1e-12, forces);
+      expect(moment_of(sum.force_branch), moment_of(whole.force_branch), 1e-12, forces);
     }
   }
 }
@@ -214,8 +214,8 @@ TEST(Binnings, LeaveAUniformPackingUniform) {
       }
       EXPECT_NEAR(f.contact[0][0] / pressure, 1, error);
       EXPECT_NEAR(f.contact[1][1] / pressure, 1, error);
-      EXPECT_NEAR(f.contact[0][1] / turning, 1, error * pressure / turning);
-      EXPECT_NEAR(f.contact[1][0] / turning, -1, error * pressure / turning);
+      EXPECT_NEAR(f.contact[0][1] / couple_stress, 1, error * pressure / couple_stress);
+      EXPECT_NEAR(f.contact[1][0] / couple_stress, -1, error * pressure / couple_stress);
       ++checked;
     }
     EXPECT_EQ(checked, binned.name == "rings" ? 6 : binned.bins.size());
