@@ -19,7 +19,7 @@ struct InfoOptions {
   void describe(Description& d) { d.add("folder", folder, "DIR", "Result folder of any command").required(); }
 };
 
-std::string text_of(const fs::path& folder, const Manifest& manifest) {
+std::string said_of(const fs::path& folder, const Manifest& manifest) {
   std::uintmax_t bytes = 0;
   for (const auto& [name, entry] : manifest.files) bytes += entry.sum.bytes;
   std::string text = fmt::format("{}: of drumlin {}, {}; {} files, {:.1f} MB\n", folder.string(),
@@ -40,7 +40,7 @@ int info(const InfoOptions& options) {
   std::string faults;
   for (const fs::path& folder : folders) try {
       const ResultFolder found = open_result_folder(folder);
-      print_out(text_of(folder, *found.manifest));
+      print_out(said_of(folder, *found.manifest));
       if (found.manifest->command == "measure")
         check_source(found, open_result_folder(folder / ".."),
                      fmt::format("drumlin measure {} --overwrite",
