@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_frames = 150;  // of an animation: a picture each, and a file that opens anywhere
-constexpr std::size_t most_played = 200;  // of a player: 7183 grains stay below 8 MB
+constexpr std::size_t most_played = 200;  // of a player: 7183 grains stay below 11 MB
 // Bytes of a player for each grain and each contact of a frame, as found on drums, chutes and silos.
-constexpr double bytes_per_grain = 3.3, bytes_per_contact = 1.2;
+constexpr double bytes_per_grain = 4.6, bytes_per_contact = 1.7;
 
 struct ShapeJson {
   Json operator()(const particles::Container& c) const {

@@ -59,7 +59,7 @@ def main():
         page.value("toggleChains()")
         chains = drawn(page)
         version = page.call("Browser.getVersion")["product"]
-    revision = subprocess.run([drumlin, "--version"], capture_output=True, text=True, check=True).stdout.split()[1]
+    revision = subprocess.run([drumlin, "--version"], capture_output=True, text=True, check=True).stdout.split()[3].rstrip(",")
     write(record, {"format": "drumlin-player-cost-1", "command": "tests/benchmarks/player.py DRUMLIN player.html RECORD.json"} | content | {
         "bytes": file.stat().st_size, "opening_processor_seconds": round(opened, 2), "frame": plain, "frame_with_force_chains": chains,
         "window": "1280 x 800", "browser": version, "load_before": load, "provenance": {"revision": revision} | machine()})
