@@ -8,6 +8,7 @@
 #include <span>
 
 #include "apps/command_line/command.hpp"
+#include "apps/commands/result_folders.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/basics/run_status.hpp"
@@ -135,23 +136,6 @@ std::string accept_one(const fs::path& folder, const std::string& reason, Source
                      of_another ? ", and that they are of another state of the run" : "", lines);
 }
 
-/// The inner result folders first: their files are none of the outer one.
-std::vector<fs::path> result_folders(const fs::path& folder) {
-  std::vector<fs::path> found;
-  for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator();
-       ++entry) {
-    if (!entry->is_directory() || entry->is_symlink()) continue;
-    const fs::path& path = entry->path();
-    if (path.filename() == "replaced" || path.filename().string().starts_with(".drumlin-"))
-      entry.disable_recursion_pending();
-    else if (has_manifest(path) || command_of(path))
-      found.push_back(path);
-  }
-  std::reverse(found.begin(), found.end());
-  found.push_back(folder);
-  return found;
-}
-
 /// Writes the manifests of the folder and of the result folders within anew, where they are not as they say;
 /// also the first one of a folder that a version without manifests has left.
 int accept(const AcceptOptions& options) {
@@ -176,6 +160,22 @@ int accept(const AcceptOptions& options) {
 }
 
 }  // namespace
+
+std::vector<fs::path> result_folders(const fs::path& folder) {
+  std::vector<fs::path> found;
+  for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator();
+       ++entry) {
+    if (!entry->is_directory() || entry->is_symlink()) continue;
+    const fs::path& path = entry->path();
+    if (path.filename() == "replaced" || path.filename().string().starts_with(".drumlin-"))
+      entry.disable_recursion_pending();
+    else if (has_manifest(path) || command_of(path))
+      found.push_back(path);
+  }
+  std::reverse(found.begin(), found.end());
+  found.push_back(folder);
+  return found;
+}
 
 Command accept_command() {
   return command("accept", "Takes a result folder as it is after an edit by hand", accept);

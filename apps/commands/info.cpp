@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "apps/command_line/command.hpp"
+#include "apps/commands/result_folders.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/files/result_folder.hpp"
@@ -32,10 +33,8 @@ std::string said_of(const fs::path& folder, const Manifest& manifest) {
 /// The folder and the result folders within, each read whole; what is not as it was written is an error that
 /// names all of it.
 int info(const InfoOptions& options) {
-  std::vector<fs::path> folders{options.folder};
-  if (fs::is_directory(options.folder))
-    for (const auto& entry : fs::recursive_directory_iterator(options.folder))
-      if (entry.is_directory() && has_manifest(entry.path())) folders.push_back(entry.path());
+  if (!fs::is_directory(options.folder)) throw InputError(options.folder.string() + ": no such folder");
+  std::vector<fs::path> folders = result_folders(options.folder);
   std::sort(folders.begin(), folders.end());
   std::string faults;
   for (const fs::path& folder : folders) try {

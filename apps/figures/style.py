@@ -26,15 +26,6 @@ FIT = CONTINUUM  # lines that are fitted or expected, not measured
 LEAST_SHOWN_NU = 0.05  # volume fraction of the loosest layer that is drawn
 
 
-# P(|t| <= value) = 0.99 for 1, 2, ... degrees of freedom (Abramowitz & Stegun 1964, table 26.10).
-STUDENT_99 = [63.657, 9.925, 5.841, 4.604, 4.032, 3.707, 3.499, 3.355, 3.250, 3.169]
-
-
-def student_99(freedom):
-    """Half width of a 99 % interval in standard errors; beyond ten degrees of freedom that of ten, which is wider."""
-    return STUDENT_99[min(freedom, len(STUDENT_99)) - 1]
-
-
 def use_style():
     """Call once at the start of a script. A matplotlibrc of the current folder or of the user changes nothing."""
     matplotlib.rcdefaults()

@@ -7,6 +7,7 @@
 
 #include <functional>
 
+#include "apps/python/arrays-inl.h"
 #include "apps/python/bindings.hpp"
 #include "coupling/calibration/axis_memory.hpp"
 #include "coupling/calibration/calibrated_law.hpp"
@@ -17,8 +18,6 @@ namespace py = pybind11;
 
 namespace drumlin::python {
 namespace {
-
-using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 struct Bed {
   coupling::PathFields fields;
@@ -155,14 +154,10 @@ void add_bed(py::module_& module) {
   });
   module.def(
       "fitted",
-      [](const std::vector<std::array<Numbers, 4>>& runs, const std::string& form,
-         const std::vector<double>& knots, int draws, double slope_besides) {
+      [](const std::vector<FrictionArrays>& runs, const std::string& form, const std::vector<double>& knots,
+         int draws, double slope_besides) {
         std::vector<std::vector<FrictionPoint>> points;
-        for (const auto& [I, mu, I_error, mu_error] : runs) {
-          points.emplace_back();
-          for (py::ssize_t k = 0; k < I.size(); ++k)
-            points.back().push_back({I.at(k), mu.at(k), I_error.at(k), mu_error.at(k)});
-        }
+        for (const FrictionArrays& run : runs) points.push_back(points_of("fitted", run));
         FrictionForm asked = form_named(form);
         asked.knots = knots;
         asked.slope_besides = slope_besides;

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "apps/python/arrays-inl.h"
 #include "apps/python/bindings.hpp"
 #include "apps/python/others_run.hpp"
 #include "coupling/core/basics/errors.hpp"
@@ -17,7 +18,6 @@ namespace py = pybind11;
 namespace drumlin::python {
 namespace {
 
-using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Indices = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
 
 std::vector<double> values_of(const Numbers& numbers) {

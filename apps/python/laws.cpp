@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "apps/python/arrays-inl.h"
 #include "apps/python/bindings.hpp"
 #include "apps/python/others_run.hpp"
 #include "coupling/calibration/calibration.hpp"
@@ -19,8 +20,6 @@ namespace py = pybind11;
 namespace drumlin::python {
 namespace {
 
-using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
-
 /// The entries of a function over an array, in its shape.
 template <class Function>
 py::array_t<double> over(const Numbers& I, const Function& value) {
@@ -32,27 +31,11 @@ py::array_t<double> over(const Numbers& I, const Function& value) {
   return result;
 }
 
-using Run = std::array<Numbers, 4>;  // I, mu and their standard errors
-
-std::vector<coupling::FrictionPoint> points_of(const std::string& name, const Run& arrays) {
-  for (const Numbers& numbers : arrays)
-    if (numbers.size() != arrays[0].size())
-      throw InputError(name + ": I, mu and their errors are not of one length");
-  std::vector<coupling::FrictionPoint> points;
-  for (py::ssize_t k = 0; k < arrays[0].size(); ++k) {
-    const coupling::FrictionPoint point{arrays[0].data()[k], arrays[1].data()[k], arrays[2].data()[k],
-                                        arrays[3].data()[k]};
-    if (!(point.I > 0 && std::isfinite(point.I) && std::isfinite(point.mu)))
-      throw InputError(name + ": point " + std::to_string(k) + " has no I above 0, or no mu");
-    points.push_back(point);
-  }
-  return points;
-}
-
 constexpr int most_draws = 10000;  // as `drumlin calibrate` takes them
 
-coupling::Calibration calibrated(const std::vector<Run>& arrays, const std::vector<std::string>& names,
-                                 double nu, const std::string& form, int draws, const py::object& drawn) {
+coupling::Calibration calibrated(const std::vector<FrictionArrays>& arrays,
+                                 const std::vector<std::string>& names, double nu, const std::string& form,
+                                 int draws, const py::object& drawn) {
   if (!(nu > 0 && nu < 1)) throw InputError("nu: the volume fraction of the bulk (allowed: between 0 and 1)");
   if (draws < 20 || draws > most_draws)
     throw InputError(fmt::format("draws: {} (allowed: 20 to {})", draws, most_draws));
@@ -98,7 +81,7 @@ void add_laws(py::module_& module) {
   law.def_property_readonly("words", [](const RheologyFit& of) { return described(of.mu); });
 
   // a, b, half widths of their intervals, rms of mu, Birge ratio, number and range of the points.
-  module.def("fit_log_friction", [](const Run& arrays) {
+  module.def("fit_log_friction", [](const FrictionArrays& arrays) {
     const coupling::FrictionFit fit = coupling::fit_log_friction(points_of("fit_log_friction", arrays));
     const auto& [var_a, covariance, var_b] = fit.law.covariance;
     return py::make_tuple(fit.law.a, fit.law.b, half_width_99(fit, var_a), half_width_99(fit, var_b),

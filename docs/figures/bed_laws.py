@@ -9,6 +9,7 @@ import argparse
 import pathlib
 
 import numpy as np
+import scipy.special
 import style
 from drum_maps import read_maps
 
@@ -37,7 +38,7 @@ def mean_of(runs):
         values = np.array([np.interp(z, heights, of[k].filled(np.nan), left=np.nan, right=np.nan) for heights, of, _ in found])
         width = np.full(len(z), np.nan)
         if len(runs) > 2:
-            width = style.student_99(len(runs) - 1) * values.std(axis=0, ddof=1) / np.sqrt(len(runs))
+            width = scipy.special.stdtrit(len(runs) - 1, 0.995) * values.std(axis=0, ddof=1) / np.sqrt(len(runs))
         both.append((values.mean(axis=0), width))
     return z, both, float(np.mean([depth for _, _, depth in found]))
 

@@ -13,6 +13,7 @@ import sys
 import tomllib
 
 import matplotlib.pyplot as plt
+import scipy.special
 from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
 
 import script
@@ -49,7 +50,8 @@ def seed_spread(groups, scalar):
         mean = sum(values) / max(len(values), 1)
         squares += sum((value - mean) ** 2 for value in values)
         freedom += max(len(values) - 1, 0)
-    return style.student_99(freedom) * math.sqrt(squares / freedom) if freedom > 0 else 0
+    # Beyond ten degrees of freedom that of ten, which is wider.
+    return scipy.special.stdtrit(min(freedom, 10), 0.995) * math.sqrt(squares / freedom) if freedom > 0 else 0
 
 
 def pooled(groups, runs, scalar):

@@ -20,10 +20,8 @@
 
 namespace drumlin::particles {
 
-template <class Problem_>
+template <class Problem>
 struct StepState {
-  using Problem = Problem_;
-  static constexpr int dim = Problem::dim;
   static constexpr bool spin = Problem::Delassus::spin;
 
   StepState(const StepLaws& of_scene, const StepSolver& of_step)
