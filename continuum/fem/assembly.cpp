@@ -149,12 +149,17 @@ void add_side(const Discretisation& d, const BoundaryCondition& condition, const
 // Takes nu times the acceleration of the material off the force; the unknown's frame does not matter.
 void add_inertia(const FlowProblem& problem, const InertiaSetting& inertia, const CellShapes& s,
                  unsigned int q, const dealii::Point<2>& x, double JxW, PointMotion at,
-                 const dealii::Vector<double>& before, Vec2& force, VelocityTangent* tangent) {
+                 const dealii::Vector<double>& before, const dealii::Vector<double>& mesh_velocity,
+                 Vec2& force, VelocityTangent* tangent) {
   const double per_time = inertia.time_step > 0 ? problem.density / inertia.time_step : 0;
   if (per_time > 0) {
     const PointMotion was = point_motion(s, q, before);
     force.x -= per_time * (at.u[0] - was.u[0]);
     force.z -= per_time * (at.u[1] - was.u[1]);
+  }
+  if (mesh_velocity.size() > 0) {
+    const PointMotion of_mesh = point_motion(s, q, mesh_velocity);
+    for (unsigned int c = 0; c < 2; ++c) at.u[c] -= of_mesh.u[c];
   }
   if (problem.frame) {
     const Vec2 frame = frame_velocity_at(problem, x);
@@ -189,6 +194,7 @@ class CellSystem {
         shapes_(d),
         local_(shapes_.n) {
     if (setting.inertia && setting.inertia->before) before_.reinit(shapes_.n);
+    if (setting.inertia && setting.inertia->mesh_velocity) mesh_velocity_.reinit(shapes_.n);
     contribution.indices.resize(shapes_.n);
     contribution.residual.reinit(shapes_.n);
     contribution.tangent.reinit(shapes_.n, shapes_.n);
@@ -201,6 +207,7 @@ class CellSystem {
     cell->get_dof_indices(contribution.indices);
     cell->get_dof_values(state_.solution, local_);
     if (before_.size() > 0) cell->get_dof_values(*setting_.inertia->before, before_);
+    if (mesh_velocity_.size() > 0) cell->get_dof_values(*setting_.inertia->mesh_velocity, mesh_velocity_);
     contribution.residual = 0;
     contribution.tangent = 0;
     if (with_tangent_) by_velocity_ = {};
@@ -230,8 +237,8 @@ class CellSystem {
     const auto response = law_(setting_.regularisation, at, state_.dual[point], point);
     Vec2 force = body_force(problem_, state_.theta, place);
     if (setting_.inertia)
-      add_inertia(problem_, *setting_.inertia, shapes_, q, place, JxW, at.motion, before_, force,
-                  by_velocity);
+      add_inertia(problem_, *setting_.inertia, shapes_, q, place, JxW, at.motion, before_, mesh_velocity_,
+                  force, by_velocity);
     add_point_residual(shapes_, q, at, response.stress, force, JxW, contribution.residual);
     if (with_tangent_) add_point_tangent(shapes_, q, response, JxW, by_velocity_, contribution.tangent);
     if constexpr (requires { response.balance; }) {
@@ -260,7 +267,7 @@ class CellSystem {
   dealii::FEFaceValues<2> face_;
   CellShapes shapes_;
   VelocityTangent by_velocity_;  // of this cell
-  dealii::Vector<double> local_, before_;
+  dealii::Vector<double> local_, before_, mesh_velocity_;
 };
 
 template <class PointLaw>

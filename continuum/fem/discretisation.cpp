@@ -15,6 +15,7 @@
 #include <set>
 
 #include "continuum/fem/detail/direct_solver.hpp"
+#include "continuum/fem/detail/split_triangles.hpp"
 
 namespace drumlin::continuum::fem {
 namespace {
@@ -115,7 +116,11 @@ struct WallNode {
   dealii::Tensor<1, 2> normal;
   bool along_wall = false;  // the direction that is held
   Vec2 velocity;
+  bool is_corner = false;  // two walls meet at an angle: nothing moves against either
 };
+
+// Sine of the angle at which two sides of one wall meet at most; those of two walls meet at more.
+constexpr double least_corner = 0.5;
 
 std::vector<WallNode> wall_nodes(const FlowProblem& problem, const Discretisation& d) {
   std::map<dealii::types::global_dof_index, WallNode> nodes;  // by the first of the two
@@ -141,7 +146,10 @@ std::vector<WallNode> wall_nodes(const FlowProblem& problem, const Discretisatio
         WallNode& node = nodes[indices[i]];
         node.index = {indices[i], indices[of_component[1][k]]};
         node.place = face.quadrature_point(i);
-        node.normal += face.normal_vector(i);
+        const auto normal = face.normal_vector(i);
+        if (rough && std::abs(node.normal[0] * normal[1] - node.normal[1] * normal[0]) > least_corner)
+          node.is_corner = true;
+        node.normal += normal;
         node.along_wall = pressed != nullptr;
         const Vec2 place{node.place[0], node.place[1]};
         node.velocity = pressed ? pressed->velocity(place) : rough->velocity(place);
@@ -158,6 +166,15 @@ std::vector<WallNode> wall_nodes(const FlowProblem& problem, const Discretisatio
 }
 
 void hold(const WallNode& node, bool with_velocity, dealii::AffineConstraints<double>& constraints) {
+  if (node.is_corner) {
+    for (const unsigned int c : {0u, 1u}) {
+      if (constraints.is_constrained(node.index[c]) || !constraints.can_store_line(node.index[c])) continue;
+      constraints.add_line(node.index[c]);
+      if (with_velocity)
+        constraints.set_inhomogeneity(node.index[c], c == 0 ? node.velocity.x : node.velocity.z);
+    }
+    return;
+  }
   const dealii::Tensor<1, 2> held =
       node.along_wall ? dealii::Tensor<1, 2>{{-node.normal[1], node.normal[0]}} : node.normal;
   const int near = std::abs(held[0]) >= std::abs(held[1]) ? 0 : 1;
@@ -168,6 +185,19 @@ void hold(const WallNode& node, bool with_velocity, dealii::AffineConstraints<do
   if (with_velocity)
     constraints.set_inhomogeneity(index,
                                   (node.velocity.x * held[0] + node.velocity.z * held[1]) / held[near]);
+}
+
+// Of a quadratic cell with straight sides and these vertices.
+std::vector<dealii::Point<2>> support_points(const dealii::Triangulation<2>::cell_iterator& cell,
+                                             const std::vector<Vec2>& vertices) {
+  static const std::vector<dealii::Point<2>> units = dealii::FE_Q<2>(2).get_unit_support_points();
+  std::vector<dealii::Point<2>> points(units.size());
+  for (std::size_t k = 0; k < units.size(); ++k)
+    for (unsigned int v = 0; v < 4; ++v) {
+      const Vec2& x = vertices[cell->vertex_index(v)];
+      points[k] += dealii::GeometryInfo<2>::d_linear_shape_function(units[k], v) * dealii::Point<2>(x.x, x.z);
+    }
+  return points;
 }
 
 }  // namespace
@@ -255,6 +285,12 @@ void Discretisation::mark_given(const FlowProblem& problem) {
 
 void Discretisation::place_cells() {
   const dealii::MappingQ<2> quadratic(2);
+  if (!vertices.empty()) {
+    mapping.initialize(mesh, [&](const dealii::Triangulation<2>::cell_iterator& cell) {
+      return support_points(cell, vertices);
+    });
+    return;
+  }
   if (!surface) {
     mapping.initialize(quadratic, mesh);
     return;
@@ -295,6 +331,14 @@ bool Discretisation::measure_cells() {
 
 bool Discretisation::move_surface(const FlowProblem& problem, const SurfaceShape& shape) {
   surface = shape;
+  place_cells();
+  if (!measure_cells()) return false;
+  constrain(problem);
+  return true;
+}
+
+bool Discretisation::move_corners(const FlowProblem& problem, std::span<const Vec2> to) {
+  vertices = SplitTriangles(*std::get<MeshedDomain>(problem.domain).mesh).places(to);
   place_cells();
   if (!measure_cells()) return false;
   constrain(problem);

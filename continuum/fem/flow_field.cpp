@@ -203,6 +203,9 @@ FlowIntegrals FlowField::integrals(Vec2 centre, double law_I_max) const {
       const auto s = fem::point_report(problem, level_->setting, values.at(q), held, point++);
       const auto x = fe.quadrature_point(q);
       sums.area += fe.JxW(q);
+      sums.center.x += x[0] * fe.JxW(q);
+      sums.center.z += x[1] * fe.JxW(q);
+      sums.kinetic_energy += 0.5 * problem.density * values.velocity[q].norm_square() * fe.JxW(q);
       if (s.margin < 0) sums.ill_posed_area += fe.JxW(q);
       const double p = std::max(0.0, s.normal);
       const double I = problem.memory ? inertial_number(problem.memory->law, magnitude(D), p)

@@ -48,6 +48,8 @@ struct FlowIntegrals {
   double dissipation = 0;         ///< integral of tau:D
   double law_dissipation = 0;     ///< of tau:D with |D| in place of the regularised one: 2 |D| mu p
   double weight_power = 0;        ///< integral of f.u
+  double kinetic_energy = 0;      ///< integral of nu u^2/2
+  Vec2 center;                    ///< integral of the place: over the area the centre of mass
   double given_side_power = 0;    ///< of the sides with a given velocity, from their nodal forces
   double weight_torque = 0;       ///< about the origin of the moments, in the sense of dv_x/dz
   double given_side_torque = 0;   ///< from the nodal forces

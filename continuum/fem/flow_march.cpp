@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "continuum/fem/detail/kept_state.hpp"
-#include "continuum/fem/detail/newton.hpp"
+#include "continuum/fem/detail/time_step.hpp"
 #include "continuum/fem/flow_solver.hpp"
 #include "coupling/core/basics/errors.hpp"
 
@@ -11,50 +11,16 @@ namespace drumlin::continuum {
 namespace {
 
 using fem::Newton;
-using fem::Phase;
 using fem::State;
-
-// Where nothing moves yet, Newton's method knows no direction of D: a fluid first, then the law at smaller
-// and smaller eps.
-bool advance_carefully(Newton& newton, const FlowSolverOptions& options, Phase phase,
-                       fem::SolvedLevel& level) {
-  const double last = phase.setting.regularisation.shear_rate, tolerance = phase.tolerance;
-  const StressLaw law = phase.setting.law;
-  phase.name = "start";
-  phase.tolerance = options.phase_tolerance;
-  phase.setting.law = NewtonianLaw{1};
-  phase.setting.regularisation.shear_rate = std::max(last, options.start_shear_rate);
-  if (!run(newton, phase, level)) return false;
-  phase.setting.law = law;
-  for (double eps = phase.setting.regularisation.shear_rate; run(newton, phase, level);) {
-    if (eps == last) return true;
-    eps *= 0.1;
-    if (eps < 1.5 * last) eps = last;
-    phase.setting.regularisation.shear_rate = eps;
-    if (eps == last) phase.tolerance = tolerance;
-  }
-  return false;
-}
 
 // One step, cut in halves where Newton's method fails.
 bool advance(Newton& newton, const FlowSolverOptions& options, double time_step, int depth,
              fem::SolvedLevel& level) {
   const State before = level.state;
-  const auto& d = *level.discretisation;
-  const bool at_rest = before.solution.l2_norm() == 0;
   const auto kept = std::make_shared<fem::FieldVector>(before.solution);
   kept->update_ghost_values();
-  Phase phase{"time step", fem::final_setting(level.problem), options.tolerance};
-  phase.setting.inertia = fem::InertiaSetting{.share = 1, .time_step = time_step, .before = kept};
-  d.constraints.distribute(level.state.solution);  // what the sides do now
-  level.state.solution.update_ghost_values();
-  // Of the start of the step: an error of first order in it, as the method's own. At rest there are no axes
-  // to turn against.
-  level.state.held = nullptr;
-  if (fem::holds_fields(level.problem) && !at_rest)
-    level.state.held =
-        fem::held_from(level.problem, d, before, {.linear_tolerance = options.linear_tolerance});
-  const bool done = at_rest ? advance_carefully(newton, options, phase, level) : run(newton, phase, level);
+  const bool done = advance_once(
+      newton, options, {.share = 1, .time_step = time_step, .before = kept, .mesh_velocity = nullptr}, level);
   if (done) return true;
   if (depth == 0 || newton.was_interrupted()) return false;
   level.state = before;

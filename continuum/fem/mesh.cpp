@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "continuum/fem/detail/discretisation.hpp"
+#include "continuum/fem/detail/split_triangles.hpp"
 
 namespace drumlin::continuum::fem {
 namespace {
@@ -132,7 +132,61 @@ void make_mesh(const AnnulusDomain& domain, dealii::parallel::distributed::Trian
   mesh.set_manifold(arc_manifold, dealii::SphericalManifold<2>());
 }
 
+// Corners, then the middles of the sides, then the centres. Collective: all ranks hold the same triangles.
+void make_mesh(const MeshedDomain& domain, dealii::parallel::distributed::Triangulation<2>& mesh) {
+  const SplitTriangles split(*domain.mesh);
+  std::vector<Point<2>> vertices;
+  for (const Vec2& x : split.places(domain.mesh->vertices)) vertices.emplace_back(x.x, x.z);
+  std::vector<dealii::CellData<2>> cells(split.cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto& [a, b, c, d] = split.cells[i];
+    cells[i].vertices = {a, b, d, c};
+  }
+  dealii::GridTools::consistently_order_cells(cells);
+  mesh.create_triangulation(vertices, cells, dealii::SubCellData());
+  for (const auto& cell : mesh.active_cell_iterators())
+    for (const auto& face : cell->face_iterators())
+      if (face->at_boundary())
+        face->set_boundary_id(
+            static_cast<int>(side_of_part(split.part_of({face->vertex_index(0), face->vertex_index(1)}))));
+}
+
 }  // namespace
+
+SplitTriangles::SplitTriangles(const RegionMesh& mesh) {
+  for (unsigned int v = 0; v < mesh.vertices.size(); ++v) parents.push_back({v, v, v});
+  std::map<Pair, unsigned int> middles;
+  const auto middle = [&](unsigned int a, unsigned int b) {
+    const auto [at, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<unsigned>(parents.size()));
+    if (is_new) parents.push_back({a, a, b});
+    return at->second;
+  };
+  std::vector<std::array<unsigned int, 3>> sides;
+  for (const auto& [a, b, c] : mesh.triangles) sides.push_back({middle(a, b), middle(b, c), middle(c, a)});
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& corner = mesh.triangles[t];
+    const auto center = static_cast<unsigned>(parents.size());
+    parents.push_back(corner);
+    for (unsigned int k = 0; k < 3; ++k)
+      cells.push_back({corner[k], sides[t][k], center, sides[t][(k + 2) % 3]});
+  }
+  for (const auto& edge : mesh.boundary) {
+    const unsigned int m = middles.at(std::minmax(edge.from, edge.to));
+    for (const unsigned int end : {edge.from, edge.to}) parts_[std::minmax(end, m)] = edge.part;
+  }
+}
+
+std::vector<Vec2> SplitTriangles::places(std::span<const Vec2> corners) const {
+  std::vector<Vec2> result;
+  result.reserve(parents.size());
+  for (const auto& [a, b, c] : parents) {
+    const Vec2 &p = corners[a], &q = corners[b], &r = corners[c];
+    result.push_back(a == b && b == c ? p
+                     : a == b         ? Vec2{0.5 * (p.x + r.x), 0.5 * (p.z + r.z)}
+                                      : Vec2{(p.x + q.x + r.x) / 3, (p.z + q.z + r.z) / 3});
+  }
+  return result;
+}
 
 void make_mesh(const Domain& domain, dealii::parallel::distributed::Triangulation<2>& mesh) {
   std::visit([&](const auto& chosen) { make_mesh(chosen, mesh); }, domain);

@@ -2,6 +2,7 @@
 // A flow problem: domain, boundary data, forces, law, effects. No deal.II here.
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -49,9 +50,18 @@ struct AnnulusDomain {
   int cells_around = 24;  ///< of each ring
 };
 
-using Domain = std::variant<ChordDomain, BoxDomain, AnnulusDomain>;
+/// The material of a region (continuum/model/region.hpp), meshed. Sides: top, the free surface, and those of
+/// the parts of the region.
+struct RegionMesh;
+struct MeshedDomain {
+  std::shared_ptr<const RegionMesh> mesh;
+};
+
+using Domain = std::variant<ChordDomain, BoxDomain, AnnulusDomain, MeshedDomain>;
 
 enum class Side : int { top = 0, bottom = 1, left = 2, right = 3 };
+/// Of a part of a region, by its index there; free: top.
+inline Side side_of_part(int part) { return part < 0 ? Side::top : static_cast<Side>(4 + part); }
 
 /// Velocity given on a side. Where two such sides meet, the one listed first in Side wins. At least one
 /// side has to carry something else: nothing would fix the pressure.

@@ -48,10 +48,11 @@ struct Outline {
   std::vector<int> part;  ///< of the side from point i to the next: index in Region::parts, or free
 };
 
-/// Quadrilaterals that fill an outline.
+/// Triangles that fill an outline; each is cut into three quadrilaterals (fem/), whose further vertices, the
+/// middles of its sides and its centre, move with its corners.
 struct RegionMesh {
   std::vector<Vec2> vertices;
-  std::vector<std::array<unsigned int, 4>> cells;  ///< anticlockwise
+  std::vector<std::array<unsigned int, 3>> triangles;  ///< anticlockwise
   struct Edge {
     unsigned int from = 0, to = 0;  ///< vertices, the material on the left
     int part = Outline::free;

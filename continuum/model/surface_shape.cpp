@@ -18,10 +18,16 @@ struct Outline {
     return std::sqrt(std::max(0.0, d.radius * d.radius - above * above));
   }
   double half_width(const BoxDomain& d) const { return 0.5 * d.width; }
-  double half_width(const AnnulusDomain&) const { return 0; }  // no free surface
+  template <class NoChord>  // no surface that is one polynomial
+  double half_width(const NoChord&) const {
+    return 0;
+  }
   double half_width_slope(const ChordDomain& d) const { return -(z - d.axis_offset) / half_width(d); }
   double half_width_slope(const BoxDomain&) const { return 0; }
-  double half_width_slope(const AnnulusDomain&) const { return 0; }
+  template <class NoChord>
+  double half_width_slope(const NoChord&) const {
+    return 0;
+  }
   // Integral of the half width from some height up to z.
   double half_area(const ChordDomain& d) const {
     const double above = z - d.axis_offset;
@@ -29,10 +35,16 @@ struct Outline {
            (above * half_width(d) + d.radius * d.radius * std::asin(std::clamp(above / d.radius, -1.0, 1.0)));
   }
   double half_area(const BoxDomain& d) const { return 0.5 * d.width * z; }
-  double half_area(const AnnulusDomain&) const { return 0; }
+  template <class NoChord>
+  double half_area(const NoChord&) const {
+    return 0;
+  }
   double depth(const ChordDomain& d) const { return d.radius - d.axis_offset; }
   double depth(const BoxDomain& d) const { return d.height; }
-  double depth(const AnnulusDomain&) const { return 1; }
+  template <class NoChord>
+  double depth(const NoChord&) const {
+    return 1;
+  }
 };
 
 double half_width(const SurfaceShape& shape, double z) {

@@ -44,9 +44,10 @@ inline State moved(const State& state, const FieldVector& step, double theta_ste
 
 /// How inertia enters one system.
 struct InertiaSetting {
-  double share = 1;                                     ///< of nu u.grad u
-  double time_step = 0;                                 ///< 0: steady
-  std::shared_ptr<const FieldVector> before = nullptr;  ///< solution at the start of the time step
+  double share = 1;                                            ///< of nu u.grad u
+  double time_step = 0;                                        ///< 0: steady
+  std::shared_ptr<const FieldVector> before = nullptr;         ///< solution at the start of the time step
+  std::shared_ptr<const FieldVector> mesh_velocity = nullptr;  ///< null: the mesh stays where it is
 };
 
 /// How one system is to be formed.

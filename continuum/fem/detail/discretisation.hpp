@@ -56,6 +56,9 @@ struct Discretisation {
   /// Moves cells and given velocities to this shape of the surface; unknowns keep their numbers. False, where
   /// a cell would be turned inside out.
   [[nodiscard]] bool move_surface(const FlowProblem& problem, const SurfaceShape& shape);
+  /// Moves the corners of a region's triangles there, and all with them. False, where a cell would be turned
+  /// inside out.
+  [[nodiscard]] bool move_corners(const FlowProblem& problem, std::span<const Vec2> corners);
   /// Begins `systems` anew, for the memory that they hold.
   void forget_systems();
   /// Of the side with the spring, at one of its points: that of the mesh, or of the shape where the surface
@@ -92,6 +95,7 @@ struct Discretisation {
   dealii::IndexSet given;
 
   std::optional<SurfaceShape> surface;  ///< absent: it has not moved
+  std::vector<Vec2> vertices;           ///< of a region's quadrilaterals, once they have moved
 
  private:
   void distribute_unknowns(const FlowProblem& problem);

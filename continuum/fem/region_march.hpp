@@ -1,0 +1,72 @@
+#pragma once
+// A flow with a free surface through time: the material alone is meshed, its mesh follows it (arbitrary
+// Lagrangian-Eulerian) and is made anew where it tangles.
+#include <functional>
+#include <vector>
+
+#include "continuum/fem/flow_solver.hpp"
+#include "continuum/model/region.hpp"
+
+namespace drumlin::continuum {
+
+struct RegionMarch {
+  Region region;
+  /// Law, density, regularisation, slope: the direction of the weight. Domain and sides are the region's.
+  FlowProblem problem;
+  std::function<double(Vec2)> size;  ///< of the triangles
+  /// Direction of the weight (rad, as FlowProblem has it); empty: the problem's slope at all times.
+  std::function<double(double time)> theta = {};
+  double step = 0;  ///< the largest
+  double end = 0;
+  std::vector<double> frames;  ///< times that a step ends at, ascending
+  int halvings = 6;            ///< of a step that fails
+};
+
+/// What a flow goes on from. Bit for bit: the mesh is kept, not made anew.
+struct RegionState {
+  double time = 0;
+  int steps = 0;
+  int steps_on_mesh = 0;  ///< since it was made
+  RegionMesh mesh = {};   ///< its vertices where they are now; empty: the fill at rest
+  double area = 0;        ///< that the material has to have
+  double discharged = 0;  ///< area that has left
+  double kinetic_energy = 0;
+  std::vector<double> values = {};  ///< of the unknowns, in deal.II's order on this mesh
+};
+
+/// One finished step.
+struct RegionStep {
+  int step = 0;  ///< from 1
+  double time = 0, time_step = 0;
+  int iterations = 0;   ///< halved steps included
+  double residual = 0;  ///< the last
+  double area = 0;      ///< of the mesh
+  double area_wanted = 0;
+  double discharged = 0;
+  double discharge_rate = 0;
+  double fastest = 0;       ///< largest speed of a corner
+  FlowIntegrals sums;       ///< on the mesh at the middle of the step
+  std::vector<Vec2> loads;  ///< force of the material on each part of the region
+  /// Work of the weight and of the walls over the step, less what was lost to the law and to friction, gained
+  /// as kinetic energy or carried out: nought but for the error of the step.
+  double energy_error = 0;
+  int cells = 0;
+  bool remeshed = false;
+};
+
+struct RegionObserver {
+  std::function<void(const RegionStep&)> stepped;
+  /// At the start and at each of the frames; the outline of the material is that of state.mesh.
+  std::function<void(const RegionState& state, const FlowField&)> frame;
+  std::function<bool()> interrupted;
+};
+
+/// Marches from `start` to the end. Not converged: the failure names time and reason. Collective; with
+/// inertia, implicit Euler, the mesh of each step at its middle.
+FlowReport march_region(const RegionMarch& march, RegionState& state, const FlowSolverOptions& options,
+                        const RegionObserver& observer);
+
+/// The outline of a mesh.
+Outline outline_of(const RegionMesh& mesh);
+
+}  // namespace drumlin::continuum

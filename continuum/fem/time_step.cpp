@@ -1,0 +1,48 @@
+#include "continuum/fem/detail/time_step.hpp"
+
+#include <algorithm>
+
+namespace drumlin::continuum::fem {
+namespace {
+
+// Where nothing moves yet, Newton's method knows no direction of D: a fluid first, then the law at smaller
+// and smaller eps.
+bool advance_carefully(Newton& newton, const FlowSolverOptions& options, Phase phase, SolvedLevel& level) {
+  const double last = phase.setting.regularisation.shear_rate, tolerance = phase.tolerance;
+  const StressLaw law = phase.setting.law;
+  phase.name = "start";
+  phase.tolerance = options.phase_tolerance;
+  phase.setting.law = NewtonianLaw{1};
+  phase.setting.regularisation.shear_rate = std::max(last, options.start_shear_rate);
+  if (!run(newton, phase, level)) return false;
+  phase.setting.law = law;
+  for (double eps = phase.setting.regularisation.shear_rate; run(newton, phase, level);) {
+    if (eps == last) return true;
+    eps *= 0.1;
+    if (eps < 1.5 * last) eps = last;
+    phase.setting.regularisation.shear_rate = eps;
+    if (eps == last) phase.tolerance = tolerance;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool advance_once(Newton& newton, const FlowSolverOptions& options, const InertiaSetting& inertia,
+                  SolvedLevel& level) {
+  const State before = level.state;
+  const auto& d = *level.discretisation;
+  const bool at_rest = before.solution.l2_norm() == 0;
+  Phase phase{"time step", final_setting(level.problem), options.tolerance};
+  phase.setting.inertia = inertia;
+  d.constraints.distribute(level.state.solution);  // what the sides do now
+  level.state.solution.update_ghost_values();
+  // Of the start of the step: an error of first order in it, as the method's own. At rest there are no axes
+  // to turn against.
+  level.state.held = nullptr;
+  if (holds_fields(level.problem) && !at_rest)
+    level.state.held = held_from(level.problem, d, before, {.linear_tolerance = options.linear_tolerance});
+  return at_rest ? advance_carefully(newton, options, phase, level) : run(newton, phase, level);
+}
+
+}  // namespace drumlin::continuum::fem

@@ -1,0 +1,180 @@
+#include "continuum/model/mesh_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuum/model/plane_vector.hpp"
+
+namespace drumlin::continuum {
+namespace {
+
+// Along a wall a contact moves as the flux asks where the surface meets it at more than this sine.
+constexpr double least_contact_sine = 0.3;
+// Sine of the angle below which two parts go on in one line.
+constexpr double smallest_corner_sine = 0.05;
+constexpr double relaxation = 1.6;  // of Gauss-Seidel's method
+constexpr int most_sweeps = 200;
+constexpr double smooth_enough = 1e-4;  // last change over the largest velocity
+
+// How a corner of the mesh may move: by this velocity, or along this direction beside it, or as its
+// neighbours do.
+struct Freedom {
+  bool inside = true;
+  std::optional<Vec2> slides = {};
+  Vec2 velocity = {};
+};
+
+// The velocity that has both these normal parts.
+Vec2 meeting(Vec2 first_tangent, Vec2 first, Vec2 second_tangent, Vec2 second) {
+  const double sine = cross(first_tangent, second_tangent);
+  if (std::abs(sine) < smallest_corner_sine) return 0.5 * (first + second);
+  // first + s t1 = second + r t2
+  const double s = cross(second - first, second_tangent) / sine;
+  return first + s * first_tangent;
+}
+
+class Boundary {
+ public:
+  Boundary(const Region& region, double time, const RegionMesh& mesh, std::span<const Vec2> corners,
+           const CornerMotion& material)
+      : region_(region), time_(time), mesh_(mesh), corners_(corners), material_(material) {}
+
+  void mark(std::vector<Freedom>& freedom) const {
+    const std::size_t n = mesh_.boundary.size();
+    std::vector<double> flux = material_.free_flux;
+    for (std::size_t i = 0; i < n; ++i) {  // contacts first: what they do not take goes to their neighbours
+      const auto &before = mesh_.boundary[(i + n - 1) % n], &after = mesh_.boundary[i];
+      const bool comes_free = before.part < 0, goes_free = after.part < 0;
+      if (comes_free == goes_free) continue;
+      const unsigned int v = after.from, next = comes_free ? before.from : after.to;
+      freedom[v] = contact(v, comes_free ? after.part : before.part);
+      flux[next] += flux[v] - dot(material_.free_normal[v], freedom[v].velocity);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto &before = mesh_.boundary[(i + n - 1) % n], &after = mesh_.boundary[i];
+      const unsigned int v = after.from;
+      if (before.part < 0 && after.part < 0)
+        freedom[v] = free(v, flux[v]);
+      else if (before.part >= 0 && after.part >= 0)
+        freedom[v] = on_parts(v, before.part, after.part);
+    }
+  }
+
+ private:
+  const RegionPart& part(int number) const { return region_.parts[static_cast<std::size_t>(number)]; }
+  Freedom free(unsigned int v, double flux) const {
+    const Vec2 normal = material_.free_normal[v], u = material_.velocity[v];
+    return {false, {}, u + ((flux - dot(u, normal)) / dot(normal, normal)) * normal};
+  }
+  Freedom contact(unsigned int v, int number) const {
+    const RegionPart& wall = part(number);
+    const Vec2 t = part_tangent(wall, corners_[v]), moves = wall_motion(wall, time_);
+    if (wall.kind == RegionPart::Kind::opening) return {false, {}, {}};
+    const Vec2 normal = material_.free_normal[v];
+    const double along = dot(normal, t);
+    if (std::abs(along) > least_contact_sine * length(normal))
+      return {false, {}, moves + ((material_.free_flux[v] - dot(moves, normal)) / along) * t};
+    if (wall.kind == RegionPart::Kind::rough) return {false, {}, moves};
+    return {false, {}, moves + dot(material_.velocity[v] - moves, t) * t};
+  }
+  Freedom on_parts(unsigned int v, int before, int after) const {
+    const Vec2 first = wall_motion(part(before), time_), second = wall_motion(part(after), time_);
+    const Vec2 t = part_tangent(part(before), corners_[v]);
+    if (before == after) return {false, t, first};
+    const bool opens =
+        (part(before).kind == RegionPart::Kind::opening) != (part(after).kind == RegionPart::Kind::opening);
+    if (opens) return {false, {}, part(before).kind == RegionPart::Kind::opening ? second : first};
+    return {false, {}, meeting(t, first, part_tangent(part(after), corners_[v]), second)};
+  }
+
+  const Region& region_;
+  double time_;
+  const RegionMesh& mesh_;
+  std::span<const Vec2> corners_;
+  const CornerMotion& material_;
+};
+
+// Each corner's neighbours; of one on a wall those beside it along the wall.
+std::vector<std::vector<unsigned int>> neighbours(const RegionMesh& mesh) {
+  std::vector<std::vector<unsigned int>> all(mesh.vertices.size());
+  std::vector<bool> outside(mesh.vertices.size(), false);
+  for (const auto& edge : mesh.boundary) {
+    outside[edge.from] = true;
+    all[edge.from].push_back(edge.to);
+    all[edge.to].push_back(edge.from);
+  }
+  for (const auto& triangle : mesh.triangles)
+    for (unsigned int k = 0; k < 3; ++k)
+      if (const unsigned int v = triangle[k]; !outside[v]) all[v].push_back(triangle[(k + 1) % 3]);
+  return all;
+}
+
+}  // namespace
+
+Vec2 part_tangent(const RegionPart& part, Vec2 point) {
+  if (const auto* segment = std::get_if<SegmentCurve>(&part.curve)) {
+    const Vec2 along = segment->to - segment->from;
+    return (1 / length(along)) * along;
+  }
+  const Vec2 outward = point - std::get<CircleCurve>(part.curve).center;
+  return (1 / length(outward)) * Vec2{-outward.z, outward.x};
+}
+
+Vec2 wall_motion(const RegionPart& part, double time) { return time >= part.begins ? part.velocity : Vec2{}; }
+
+Vec2 wall_velocity(const RegionPart& part, double time, Vec2 point) {
+  const Vec2 moves = wall_motion(part, time);
+  const auto* circle = std::get_if<CircleCurve>(&part.curve);
+  if (!circle || time < part.begins) return moves;
+  return moves + part.rotation * Vec2{point.z - circle->center.z, circle->center.x - point.x};
+}
+
+std::variant<SegmentCurve, CircleCurve> curve_at(const RegionPart& part, double time) {
+  const Vec2 moved = std::max(0.0, time - part.begins) * part.velocity;
+  if (const auto* segment = std::get_if<SegmentCurve>(&part.curve))
+    return SegmentCurve{segment->from + moved, segment->to + moved};
+  const auto& circle = std::get<CircleCurve>(part.curve);
+  return CircleCurve{circle.center + moved, circle.radius};
+}
+
+Vec2 projected(const std::variant<SegmentCurve, CircleCurve>& curve, Vec2 point) {
+  if (const auto* segment = std::get_if<SegmentCurve>(&curve)) {
+    const Vec2 along = segment->to - segment->from;
+    const double share = std::clamp(dot(point - segment->from, along) / dot(along, along), 0.0, 1.0);
+    return segment->from + share * along;
+  }
+  const auto& [center, radius] = std::get<CircleCurve>(curve);
+  const Vec2 outward = point - center;
+  return center + (radius / length(outward)) * outward;
+}
+
+std::vector<Vec2> corner_velocities(const Region& region, double time, const RegionMesh& mesh,
+                                    std::span<const Vec2> corners, const CornerMotion& material) {
+  std::vector<Freedom> freedom(mesh.vertices.size());
+  Boundary(region, time, mesh, corners, material).mark(freedom);
+  std::vector<Vec2> w(freedom.size());
+  double largest = 0;
+  for (std::size_t v = 0; v < w.size(); ++v) {
+    w[v] = freedom[v].velocity;
+    largest = std::max(largest, length(w[v]));
+  }
+  const auto around = neighbours(mesh);
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    double change = 0;
+    for (std::size_t v = 0; v < w.size(); ++v) {
+      const Freedom& may = freedom[v];
+      if (!may.inside && !may.slides) continue;
+      Vec2 mean{};
+      for (const unsigned int of : around[v])
+        mean = mean + (1.0 / static_cast<double>(around[v].size())) * w[of];
+      if (may.slides) mean = may.velocity + dot(mean - may.velocity, *may.slides) * *may.slides;
+      const Vec2 step = relaxation * (mean - w[v]);
+      w[v] = w[v] + step;
+      change = std::max(change, length(step));
+    }
+    if (change <= smooth_enough * largest) break;
+  }
+  return w;
+}
+
+}  // namespace drumlin::continuum
