@@ -8,7 +8,7 @@
 #include "coupling/core/results/quantities.hpp"
 #include "particles/measurement/layers/profile.hpp"
 #include "particles/measurement/maps/field_values.hpp"
-#include "particles/measurement/maps/spline_kernel.hpp"
+#include "coupling/core/results/spline_kernel.hpp"
 #include "tests/measurement/collected_maps.hpp"
 #include "tests/measurement/packings.hpp"
 

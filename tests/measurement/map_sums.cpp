@@ -7,7 +7,7 @@
 #include <random>
 
 #include "coupling/core/basics/errors.hpp"
-#include "particles/measurement/maps/spline_kernel.hpp"
+#include "coupling/core/results/spline_kernel.hpp"
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {

@@ -52,7 +52,7 @@ void write(const particles::Measurement& measured, const PartOutput& output, con
   FieldMap outline;
   outline.scales = measured.scales;
   outline.header = header_of_maps(measured.profiles.header);
-  outline.header.kernel = "product of cubic B-splines";
+  outline.header.kernel = spline_kernel_name;
   outline.header.kernel_width = options.map_width;
   std::optional<FieldMapWriter> file;
   maps.measured = particles::measured_maps(std::move(maps.reading), measured.place, measured.surface_z,
@@ -65,7 +65,7 @@ void write(const particles::Measurement& measured, const PartOutput& output, con
   output.content["mu_invariant"] = collapse_of(maps.measured.friction, maps.measured.friction_ci99);
   output.content["settings"]["maps"] = {
       {"spacing", options.map_spacing},      {"kernel_width", options.map_width},
-      {"least_nu", particles::least_map_nu}, {"displacement_interval", maps.measured.displacement_interval},
+      {"least_nu", least_map_nu}, {"displacement_interval", maps.measured.displacement_interval},
       {"bulk_margin", limits.margin},        {"block", limits.block},
       {"flowing_I", limits.flowing_I},       {"mu_fit_I", {limits.I_min, limits.I_max}}};
   file->save();
@@ -102,7 +102,7 @@ void print(const particles::MeasuredMaps& maps) {
 
 Part maps_part(const MeasureOptions& options) {
   // Refused before the first snapshot is read.
-  (void)particles::coarse_graining({}, 0, 1, 0, 1, options.map_spacing, options.map_width, 0);
+  (void)grid_over(0, 1, 0, 1, options.map_spacing, options.map_width);
   auto maps = std::make_shared<Maps>();
   Part part;
   part.name = "maps";

@@ -53,18 +53,13 @@ std::vector<double> over_grid(const H5Reader& in, const std::string& name, const
 
 /// All but the fields themselves.
 void add_outline(const FieldMap& map, H5Content& out) {
-  const MapGrid& grid = map.grid;
-  std::vector<double> x(grid.columns), z(grid.rows);
-  for (std::size_t column = 0; column < x.size(); ++column) x[column] = grid.x_of(column);
-  for (std::size_t row = 0; row < z.size(); ++row) z[row] = grid.z_of(row);
   std::string names;
   for (const MapField& field : map.fields) names.append(field.name).append("\n");
   out.add_text("format", format);
   out.add_text("header", header_lines(map.header, ""));
   out.add_text("names", names);
   out.add_scales(map.scales);
-  out.add("x", x, {"d", "nodes along x"});
-  out.add("z", z, {"d", "nodes along z"});
+  add_nodes(map.grid, out);
 }
 
 void refuse_faults(const std::filesystem::path& file, const FieldMap& map) {
@@ -84,6 +79,14 @@ void each_set(const std::vector<MapField>& fields, Action action) {
 }
 
 }  // namespace
+
+void add_nodes(const MapGrid& grid, H5Content& out) {
+  std::vector<double> x(grid.columns), z(grid.rows);
+  for (std::size_t column = 0; column < x.size(); ++column) x[column] = grid.x_of(column);
+  for (std::size_t row = 0; row < z.size(); ++row) z[row] = grid.z_of(row);
+  out.add("x", x, {"d", "nodes along x"});
+  out.add("z", z, {"d", "nodes along z"});
+}
 
 void write_field_map(const std::filesystem::path& file, const FieldMap& map, MapStorage storage) {
   refuse_faults(file, map);

@@ -12,6 +12,9 @@ namespace drumlin {
 /// How much of a map is kept: every bit, or values to 3e-5 and intervals to 1 % of themselves, packed.
 enum class MapStorage { whole, packed };
 
+/// The datasets `x` and `z` of a file over a grid.
+void add_nodes(const MapGrid& grid, H5Content& out);
+
 /// Format "drumlin-maps-1". Throws InputError on a map that could not be read back, IoError when the file
 /// cannot be written; an older file of that name is then untouched.
 void write_field_map(const std::filesystem::path& file, const FieldMap& map,

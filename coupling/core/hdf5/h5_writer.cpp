@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <fstream>
-#include <initializer_list>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -47,9 +46,9 @@ constexpr hsize_t all_rows = std::numeric_limits<hsize_t>::max();
 constexpr hsize_t packed_piece = 1 << 20;  // bytes of what is unpacked at once, at most
 
 /// Whole rows to a piece.
-void pack(hid_t creation, std::initializer_list<hsize_t> shape) {
-  const hsize_t rows = *std::data(shape), row_bytes = *(std::data(shape) + 1) * sizeof(float);
-  const hsize_t piece[] = {std::clamp<hsize_t>(packed_piece / row_bytes, 1, rows), *(std::data(shape) + 1)};
+void pack(hid_t creation, const std::vector<hsize_t>& shape) {
+  const hsize_t rows = shape[0], row_bytes = shape[1] * sizeof(float);
+  const hsize_t piece[] = {std::clamp<hsize_t>(packed_piece / row_bytes, 1, rows), shape[1]};
   check_h5(H5Pset_chunk(creation, 2, piece) >= 0 && H5Pset_shuffle(creation) >= 0 &&
                H5Pset_deflate(creation, 9) >= 0,
            "pack a dataset");
@@ -106,16 +105,16 @@ void describe(hid_t set, H5Words words) {
 /// What a dataset is made of. Without lengths it is a single number or text.
 struct Layout {
   hid_t type;
-  std::initializer_list<hsize_t> shape;
+  std::vector<hsize_t> shape;
   H5Words words = {};
   bool packed = false;
 };
 
 /// A dataset and the groups on the way to it.
 H5Id create_set(hid_t file, const std::string& name, const Layout& layout) {
-  const auto& shape = layout.shape;
-  const bool single = shape.size() == 0;
-  const H5Id space(single ? -1 : H5Screate_simple(static_cast<int>(shape.size()), std::data(shape), nullptr),
+  const std::vector<hsize_t>& shape = layout.shape;
+  const bool single = shape.empty();
+  const H5Id space(single ? -1 : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
                    H5Sclose);
   const H5Id packing(layout.packed ? H5Pcopy(common().creation) : -1, H5Pclose);
   if (layout.packed) pack(packing.get(), shape);
@@ -176,10 +175,14 @@ template void H5Content::add(const std::string&, std::span<const float>, H5Words
 template void H5Content::add(const std::string&, std::span<const std::int32_t>, H5Words);
 template void H5Content::add(const std::string&, std::span<const std::int64_t>, H5Words);
 
+void H5Content::add_array(const std::string& name, std::span<const double> values,
+                          const std::vector<std::size_t>& lengths, H5Words words) {
+  put(handles_->file->get(), name, values.data(),
+      {type_of<double>(), {lengths.begin(), lengths.end()}, words});
+}
 void H5Content::add_table(const std::string& name, std::span<const double> values, std::size_t columns,
                           H5Words words) {
-  put(handles_->file->get(), name, values.data(),
-      {type_of<double>(), {values.size() / columns, columns}, words});
+  add_array(name, values, {values.size() / columns, columns}, words);
 }
 void H5Content::add_packed_table(const std::string& name, std::span<const double> values, std::size_t columns,
                                  int bits, H5Words words) {

@@ -2,7 +2,7 @@
 // How grains become fields: the nodes of a map, the kernel, and the frame of both.
 #include <cstddef>
 
-#include "coupling/core/results/field_map.hpp"
+#include "coupling/core/results/kernel_nodes.hpp"
 #include "particles/measurement/frame/flow_frame.hpp"
 
 namespace drumlin::particles {
@@ -17,13 +17,8 @@ struct CoarseGraining {
   double period = 0;
 };
 
-/// Most spacings that a width may hold: the footprint of a point has a fixed size.
-constexpr double most_spacings_per_width = 15;
-
-/// Nodes over the ranges (frame coordinates): columns at whole multiples of the spacing, rows halfway between
-/// them, at the middles of layers as thick as the spacing. period > 0: the columns share it out evenly, from
-/// x_from on. `closed`: so do the rows, of a cell that is periodic in z. Throws InputError unless 1 <=
-/// width/spacing <= most_spacings_per_width: a wider spacing would lose grains between nodes.
+/// Nodes over the ranges (frame coordinates), those of grid_over(). period > 0: the columns share it out
+/// evenly, from x_from on. `closed`: so do the rows, of a cell that is periodic in z.
 CoarseGraining coarse_graining(const FlowFrame& frame, double x_from, double x_to, double z_from, double z_to,
                                double spacing, double width, double period, bool closed = false);
 

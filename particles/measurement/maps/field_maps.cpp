@@ -7,7 +7,7 @@
 #include "coupling/core/results/plane_invariants.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/maps/field_values.hpp"
-#include "particles/measurement/maps/spline_kernel.hpp"
+#include "coupling/core/results/spline_kernel.hpp"
 
 namespace drumlin::particles {
 namespace {

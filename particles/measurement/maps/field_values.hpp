@@ -9,10 +9,6 @@
 
 namespace drumlin::particles {
 
-/// Least volume fraction at which a node has more than its volume fraction: above the surface a few grains in
-/// flight would stand for a field.
-constexpr double least_map_nu = 0.05;
-
 /// Longest mean displacement between two snapshots for which a node has fields of displacements, in widths of
 /// the kernel: beyond it a displacement is no longer the motion at its middle.
 constexpr double longest_displacement = 0.5;

@@ -1,10 +1,8 @@
 #include "particles/measurement/maps/map_sums.hpp"
 
 #include <cmath>
-#include <string>
 #include <vector>
 
-#include "coupling/core/basics/errors.hpp"
 #include "particles/bodies/cell_path.hpp"
 #include "particles/measurement/frame/accumulate.hpp"
 
@@ -26,16 +24,8 @@ void MapNode::add_centre(const KernelWeight& at, const GrainSample<2>& grain) {
 
 CoarseGraining coarse_graining(const FlowFrame& frame, double x_from, double x_to, double z_from, double z_to,
                                double spacing, double width, double period, bool closed) {
-  if (!(spacing > 0) || !(width >= spacing) || width > most_spacings_per_width * spacing)
-    throw InputError("a map of spacing " + std::to_string(spacing) + " d with a kernel of width " +
-                     std::to_string(width) + " d: the width must be 1 to " +
-                     std::to_string(static_cast<int>(most_spacings_per_width)) + " spacings");
-  CoarseGraining graining{frame, {}, width, period};
+  CoarseGraining graining{frame, grid_over(x_from, x_to, z_from, z_to, spacing, width), width, period};
   MapGrid& grid = graining.grid;
-  grid.spacing_z = grid.spacing_x = spacing;
-  const double first_row = std::floor(z_from / spacing), end_row = std::ceil(z_to / spacing);
-  grid.z_first = (first_row + 0.5) * spacing;
-  grid.rows = static_cast<std::size_t>(std::max(1.0, end_row - first_row));
   if (closed) {
     grid.rows = static_cast<std::size_t>(std::max(1.0, std::ceil((z_to - z_from) / spacing)));
     grid.spacing_z = (z_to - z_from) / static_cast<double>(grid.rows);
@@ -46,10 +36,6 @@ CoarseGraining coarse_graining(const FlowFrame& frame, double x_from, double x_t
     grid.spacing_x = period / static_cast<double>(grid.columns);
     grid.x_first = x_from;
     if (closed) graining.period = 0;
-  } else {
-    const double first = std::floor(x_from / spacing), last = std::ceil(x_to / spacing);
-    grid.x_first = first * spacing;
-    grid.columns = static_cast<std::size_t>(last - first) + 1;
   }
   return graining;
 }

@@ -1,33 +1,14 @@
 #pragma once
 // Sums of coarse graining at the nodes of a map. All of them are linear in the snapshots: those of batches
 // can be added and subtracted, node by node, ratios come last (field_maps.hpp).
-#include <array>
 #include <cstddef>
 
 #include "particles/measurement/frame/flow_snapshot.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/maps/kernel_grid.hpp"
+#include "particles/measurement/maps/node_tiles.hpp"
 
 namespace drumlin::particles {
-
-/// Sums of phi times some moments at their points, and their slopes; phi is the kernel around the node. The
-/// first moment is the weight of the means.
-template <std::size_t N>
-struct KernelSums {
-  std::array<double, N> value{}, slope_x{}, slope_z{};
-
-  void add(const KernelWeight& at, const std::array<double, N>& moments) {
-    for (std::size_t k = 0; k < N; ++k) {
-      value[k] += at.phi * moments[k];
-      slope_x[k] += at.phi_x * moments[k], slope_z[k] += at.phi_z * moments[k];
-    }
-  }
-  double mean(std::size_t k) const { return value[k] / value[0]; }
-  /// Slope of the mean, each sum by the kernel's own slope.
-  double slope(std::size_t k, const std::array<double, N>& slopes) const {
-    return (slopes[k] - mean(k) * slopes[0]) / value[0];
-  }
-};
 
 /// Sums at one node; phi is the kernel around it, m the mass. v: velocity relative to the drum over the
 /// stored window; u, that of `motion`: instantaneous, in the laboratory. Components in the flow frame.

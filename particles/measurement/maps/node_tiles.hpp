@@ -3,13 +3,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "coupling/core/results/field_map.hpp"
+#include "coupling/core/results/kernel_nodes.hpp"
 
 namespace drumlin::particles {
-
-struct MapPlace {
-  std::size_t column, row;
-};
 
 /// One sum per node of a grid, zero where nothing was added. Memory: of the square tiles that somebody wrote
 /// to.

@@ -1,9 +1,13 @@
 #pragma once
-// The kernel of the maps: the product of two cubic B-splines (docs/theory/coarse-graining.md says why).
+// The kernel of coarse graining, of both sides: the product of two cubic B-splines
+// (docs/theory/coarse-graining.md says why).
 #include <algorithm>
 #include <cmath>
 
-namespace drumlin::particles {
+namespace drumlin {
+
+/// As headers of files name it.
+inline constexpr const char* spline_kernel_name = "product of cubic B-splines";
 
 /// Cubic B-spline with knots one apart, integral 1, zero for |u| >= 2; variance 1/3. It is the density of the
 /// sum of four numbers drawn evenly from [-1/2, 1/2].
@@ -29,4 +33,4 @@ inline double spline_integral(double u) {
 /// distance of the knots. Error below 1e-4.
 double kernel_share_in_circle(double x, double z, double width, double radius);
 
-}  // namespace drumlin::particles
+}  // namespace drumlin

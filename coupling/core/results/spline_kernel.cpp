@@ -1,6 +1,6 @@
-#include "particles/measurement/maps/spline_kernel.hpp"
+#include "coupling/core/results/spline_kernel.hpp"
 
-namespace drumlin::particles {
+namespace drumlin {
 
 double kernel_share_in_circle(double x, double z, double width, double radius) {
   if (std::hypot(std::abs(x) + 2 * width, std::abs(z) + 2 * width) <= radius) return 1;
@@ -21,4 +21,4 @@ double kernel_share_in_circle(double x, double z, double width, double radius) {
   return share / whole;
 }
 
-}  // namespace drumlin::particles
+}  // namespace drumlin
