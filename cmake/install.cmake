@@ -29,7 +29,7 @@ install(TARGETS drumlin RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT co
 install(DIRECTORY coupling particles continuum DESTINATION ${DRUMLIN_INSTALLED_INCLUDES}
         FILES_MATCHING PATTERN "*.hpp" PATTERN "*-inl.h" PATTERN detail EXCLUDE PATTERN distributed EXCLUDE)
 
-install(DIRECTORY data/scenes data/rheology data/paper data/cost data/limits DESTINATION ${DRUMLIN_INSTALLED_DATA} COMPONENT commands)
+install(DIRECTORY data/scenes data/rheology data/paper data/cost data/limits data/pair DESTINATION ${DRUMLIN_INSTALLED_DATA} COMPONENT commands)
 install(FILES data/problems/drum-300-mu-0.4-flow.h5 DESTINATION ${DRUMLIN_INSTALLED_DATA}/problems COMPONENT commands)
 install(DIRECTORY apps/costs apps/figures apps/pages DESTINATION ${DRUMLIN_INSTALLED_PACKAGE} COMPONENT commands PATTERN __pycache__ EXCLUDE)
 install(FILES docs/formats/quantities.md DESTINATION ${DRUMLIN_INSTALLED_PACKAGE}/figures COMPONENT commands)
