@@ -113,11 +113,7 @@ Json friction_json(const FrictionLaw& mu) {
 
 Json settings_json(const FinishedFlow& flow) {
   const continuum::FlowScene& s = flow.asked.scene;
-  Json law = friction_json(flow.asked.law.mu);
-  law["nu"] = flow.asked.law.nu;
-  law["fitted_on"] = flow.asked.law.fitted_on;
-  if (flow.asked.law.k) law["k"] = {{"I", flow.asked.law.k->I}, {"k", flow.asked.law.k->k}};
-  Json settings{{"title", s.title}, {"law", law}};
+  Json settings{{"title", s.title}, {"law", law_json(flow.asked.law)}};
   add_scalars(settings, flow.asked.flow_case.settings);
   const Json rest{{"surface_cell", s.mesh.surface_cell},
                   {"surface_zone", s.mesh.surface_zone},
@@ -236,6 +232,14 @@ Json rank_costs_json(const FinishedFlow& flow) {
 }
 
 }  // namespace
+
+Json law_json(const RheologyFit& fit) {
+  Json law = friction_json(fit.mu);
+  law["nu"] = fit.nu;
+  law["fitted_on"] = fit.fitted_on;
+  if (fit.k) law["k"] = {{"I", fit.k->I}, {"k", fit.k->k}};
+  return law;
+}
 
 Json flow_json(const FinishedFlow& flow) {
   const continuum::MeshResult& result = flow.meshes.back();

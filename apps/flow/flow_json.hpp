@@ -12,4 +12,7 @@ inline constexpr const char* flow_format = "drumlin-flow-run-2";
 /// Only reads what was computed: no collective call.
 nlohmann::ordered_json flow_json(const FinishedFlow& flow);
 
+/// A law with the keys of rheology.toml.
+nlohmann::ordered_json law_json(const RheologyFit& fit);
+
 }  // namespace drumlin::apps

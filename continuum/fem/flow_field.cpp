@@ -184,6 +184,30 @@ std::vector<PointState> FlowField::at(std::span<const Vec2> points) const {
   return states;
 }
 
+std::vector<FlowPiece> FlowField::pieces(unsigned int points_per_side) const {
+  const auto& d = *level_->discretisation;
+  const dealii::QGauss<2> rule(points_per_side);
+  dealii::FEValues<2> fe(d.mapping, d.elements, rule,
+                         dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
+                             dealii::update_quadrature_points);
+  std::vector<FlowPiece> all;
+  for (const auto& cell : d.unknowns.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
+    fe.reinit(cell);
+    const Values values(fe, level_->state.solution);
+    const auto& held = level_->state.held;
+    const auto held_here = held ? fem::held_at(*held, d, cell, rule.get_points()) : fem::HeldValues{};
+    for (const unsigned int q : fe.quadrature_point_indices()) {
+      const auto report = fem::point_report(level_->problem, level_->setting, values.at(q), held_here, q);
+      const auto x = fe.quadrature_point(q);
+      all.push_back({{x[0], x[1]},
+                     fe.JxW(q),
+                     point_state(report, values.velocity[q], values.gradient[q], values.pressure[q])});
+    }
+  }
+  return all;
+}
+
 FlowIntegrals FlowField::integrals(Vec2 centre, double law_I_max) const {
   const auto& d = *level_->discretisation;
   const auto& problem = level_->problem;

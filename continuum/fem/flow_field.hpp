@@ -40,6 +40,13 @@ struct PointState {
   double fluidity = no_value;        ///< g = 2|D|/mu with a threshold of fluidity, 1/sqrt(d/g); NaN without
 };
 
+/// What a small piece of the domain holds.
+struct FlowPiece {
+  Vec2 place;
+  double area = 0;
+  PointState state;
+};
+
 /// Integrals over the domain and its sides, by quadrature of the fields themselves.
 struct FlowIntegrals {
   double area = 0;
@@ -74,6 +81,8 @@ class FlowField {
   bool remembers() const;      ///< memory of the axes
   bool on_first_rank() const;  ///< the one that writes files and messages
   std::vector<PointState> at(std::span<const Vec2> points) const;
+  /// The domain in pieces: Gauss's points of each cell, so many along each side. Of this rank alone.
+  std::vector<FlowPiece> pieces(unsigned int points_per_side) const;
   /// For another solve to start from (solve_flow_from).
   FlowState state() const;
   /// Torques are taken about `centre`.

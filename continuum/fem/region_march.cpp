@@ -113,9 +113,14 @@ class FreeFlow {
     report_.start = "rest";
   }
 
+  FlowField field() {
+    begin();
+    return FlowField(level_);
+  }
+
   FlowReport march() {
     begin();
-    if (observer_.frame && state_.steps == 0) observer_.frame(state_, fem::field_of(level_));
+    if (observer_.frame && state_.steps == 0) observer_.frame(state_, now_, fem::field_of(level_));
     while (state_.time < plan_.end * (1 - 1e-12)) {
       now_ = {};
       if (!step()) {
@@ -126,7 +131,7 @@ class FreeFlow {
       if (observer_.stepped) observer_.stepped(now_);
       if (observer_.frame &&
           std::find(plan_.frames.begin(), plan_.frames.end(), state_.time) != plan_.frames.end())
-        observer_.frame(state_, fem::field_of(level_));
+        observer_.frame(state_, now_, fem::field_of(level_));
     }
     report_.converged = report_.failure.empty();
     report_.residual = now_.residual;
@@ -139,15 +144,13 @@ class FreeFlow {
 
  private:
   void begin() {
-    if (state_.mesh.vertices.empty()) {
-      const Outline fill = outline_of(plan_.region, state_.time);
-      state_.area = area(fill);
-      state_.mesh = mesh_of(resampled(fill, plan_.size), plan_.size);
-    }
     discretise();
     auto& solution = level_->state.solution;
+    if (!state_.values.empty() && state_.values.size() != solution.size())
+      throw InputError("a kept state does not fit its mesh");
     for (std::size_t i = 0; i < state_.values.size(); ++i) solution[i] = state_.values[i];
     solution.update_ghost_values();
+    (void)d().move_corners(level_->problem, state_.mesh.vertices);
   }
 
   // The level of the mesh as it is, at rest.
@@ -360,6 +363,12 @@ class FreeFlow {
     const auto& solution = level_->state.solution;
     state_.values.assign(solution.begin(), solution.end());
     report_.iterations += now_.iterations;
+    RegionTotals& totals = state_.totals;
+    totals.iterations += now_.iterations;
+    totals.weight_work += dt * now_.sums.weight_power;
+    totals.energy_error += now_.energy_error;
+    totals.mass_error =
+        std::max(totals.mass_error, std::abs(now_.area + state_.discharged - totals.fill) / totals.fill);
     now_.step = state_.steps;
     now_.time = state_.time;
     now_.time_step = dt;
@@ -378,15 +387,34 @@ class FreeFlow {
     remesh(laid);
   }
 
-  // Walls that are no longer there leave a free surface.
+  // Walls that are no longer there leave a free surface, and so do those that would pull.
   void change_parts() {
-    bool changed = false;
-    for (auto& edge : state_.mesh.boundary)
-      if (edge.part >= 0 && plan_.region.parts[static_cast<std::size_t>(edge.part)].ends <= state_.time) {
-        edge.part = Outline::free;
-        changed = true;
+    const Outline before = outline_of(state_.mesh);
+    Outline now = without_lost_walls(before, plan_.region, state_.time);
+    let_go(now);
+    if (now.part != before.part) remesh(now);
+  }
+
+  // From the surface on, as far as a wall that moves away would have to pull the material along.
+  void let_go(Outline& outline) const {
+    const std::size_t n = outline.points.size();
+    for (const std::size_t step : {std::size_t{1}, n - 1})
+      for (std::size_t i = 0; i < n; ++i) {
+        if (outline.part[i] >= 0) continue;
+        for (std::size_t k = (i + step) % n; outline.part[k] >= 0 && pulls(outline, k); k = (k + step) % n)
+          outline.part[k] = Outline::free;
       }
-    if (changed) remesh(outline_of(state_.mesh));
+  }
+  bool pulls(const Outline& outline, std::size_t side) const {
+    const RegionPart& part = plan_.region.parts[static_cast<std::size_t>(outline.part[side])];
+    const Vec2 moves = wall_motion(part, state_.time);
+    const Vec2 a = outline.points[side], b = outline.points[(side + 1) % outline.points.size()];
+    const double length = std::hypot(b.x - a.x, b.z - a.z);
+    const Vec2 n{(b.z - a.z) / length, (a.x - b.x) / length};
+    if (!(moves.x * n.x + moves.z * n.z > 0)) return false;
+    const std::array<Vec2, 1> middle = {{{0.5 * (a.x + b.x), 0.5 * (a.z + b.z)}}};
+    const PointState at = FlowField(level_).at(middle).front();
+    return n.x * n.x * at.sigma_xx + n.z * n.z * at.sigma_zz - 2 * n.x * n.z * at.sigma_xz < 0;
   }
 
   void remesh(const Outline& outline) {
@@ -494,6 +522,19 @@ Outline outline_of(const RegionMesh& mesh) {
     outline.part.push_back(edge.part);
   }
   return outline;
+}
+
+RegionState filled(const RegionMarch& march) {
+  const Outline fill = outline_of(march.region, 0);
+  RegionState state;
+  state.area = state.totals.fill = area(fill);
+  state.mesh = mesh_of(resampled(fill, march.size), march.size);
+  return state;
+}
+
+FlowField flow_of(const RegionMarch& march, const RegionState& state) {
+  RegionState copy = state;
+  return FreeFlow(march, copy, {}, {}).field();
 }
 
 FlowReport march_region(const RegionMarch& march, RegionState& state, const FlowSolverOptions& options,

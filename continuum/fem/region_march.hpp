@@ -22,6 +22,15 @@ struct RegionMarch {
   int halvings = 6;            ///< of a step that fails
 };
 
+/// Sums over the steps so far.
+struct RegionTotals {
+  double fill = 0;  ///< area of the material at the start
+  double weight_work = 0;
+  double energy_error = 0;  ///< of the steps, with its sign
+  double mass_error = 0;    ///< largest abs(area inside + discharged - fill) over the fill
+  double iterations = 0;
+};
+
 /// What a flow goes on from. Bit for bit: the mesh is kept, not made anew.
 struct RegionState {
   double time = 0;
@@ -31,6 +40,7 @@ struct RegionState {
   double area = 0;        ///< that the material has to have
   double discharged = 0;  ///< area that has left
   double kinetic_energy = 0;
+  RegionTotals totals = {};
   std::vector<double> values = {};  ///< of the unknowns, in deal.II's order on this mesh
 };
 
@@ -56,8 +66,8 @@ struct RegionStep {
 
 struct RegionObserver {
   std::function<void(const RegionStep&)> stepped;
-  /// At the start and at each of the frames; the outline of the material is that of state.mesh.
-  std::function<void(const RegionState& state, const FlowField&)> frame;
+  /// At the start (its step has done nothing) and at each of the frames, after the step that ends there.
+  std::function<void(const RegionState& state, const RegionStep& step, const FlowField&)> frame;
   std::function<bool()> interrupted;
 };
 
@@ -65,6 +75,12 @@ struct RegionObserver {
 /// inertia, implicit Euler, the mesh of each step at its middle.
 FlowReport march_region(const RegionMarch& march, RegionState& state, const FlowSolverOptions& options,
                         const RegionObserver& observer);
+
+/// The fill at rest, meshed.
+RegionState filled(const RegionMarch& march);
+
+/// A state as a flow; its stresses are those of the steady law.
+FlowField flow_of(const RegionMarch& march, const RegionState& state);
 
 /// The outline of a mesh.
 Outline outline_of(const RegionMesh& mesh);

@@ -14,6 +14,8 @@ constexpr double least_contact_sine = 0.3;
 constexpr double smallest_corner_sine = 0.05;
 constexpr double relaxation = 1.6;  // of Gauss-Seidel's method
 constexpr int most_sweeps = 200;
+constexpr double rounding = 1e-9;
+constexpr double least_rest = 0.02;     // of a side, that is left of it where it is cut
 constexpr double smooth_enough = 1e-4;  // last change over the largest velocity
 
 // How a corner of the mesh may move: by this velocity, or along this direction beside it, or as its
@@ -175,6 +177,45 @@ std::vector<Vec2> corner_velocities(const Region& region, double time, const Reg
     if (change <= smooth_enough * largest) break;
   }
   return w;
+}
+
+Outline without_lost_walls(const Outline& outline, const Region& region, double time) {
+  Outline left;
+  const auto add = [&](Vec2 point, int part) {
+    left.points.push_back(point);
+    left.part.push_back(part);
+  };
+  const std::size_t n = outline.points.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 a = outline.points[i], b = outline.points[(i + 1) % n];
+    const int number = outline.part[i];
+    const RegionPart* part = number < 0 ? nullptr : &region.parts[static_cast<std::size_t>(number)];
+    if (!part || part->ends <= time) {
+      add(a, Outline::free);
+      continue;
+    }
+    const auto curve = curve_at(*part, time);
+    const auto* segment = std::get_if<SegmentCurve>(&curve);
+    const Vec2 along = segment ? segment->to - segment->from : Vec2{};
+    const auto share = [&](Vec2 x) { return dot(x - segment->from, along) / dot(along, along); };
+    const auto inside = [&](double s) { return s > -rounding && s < 1 + rounding; };
+    if (!segment || (inside(share(a)) && inside(share(b)))) {
+      add(a, number);
+      continue;
+    }
+    const double from = share(a), to = share(b);
+    const bool kept_first = inside(from), kept_last = inside(to);
+    add(a, kept_first ? number : Outline::free);
+    if (kept_first == kept_last) continue;
+    const double end = (kept_first ? to : from) < 0.5 ? 0 : 1;  // of the segment, between the two
+    const double at = (end - from) / (to - from);
+    if (at < least_rest || at > 1 - least_rest) {
+      left.part.back() = (at < least_rest) == kept_last ? number : Outline::free;
+      continue;
+    }
+    add(a + at * (b - a), kept_last ? number : Outline::free);
+  }
+  return left;
 }
 
 }  // namespace drumlin::continuum

@@ -35,4 +35,8 @@ struct CornerMotion {
 std::vector<Vec2> corner_velocities(const Region& region, double time, const RegionMesh& mesh,
                                     std::span<const Vec2> corners, const CornerMotion& material);
 
+/// The outline where walls are no longer: sides on a part that has ended are free, and so is what a segment
+/// has slid past or no longer reaches; the end of a segment becomes a point.
+Outline without_lost_walls(const Outline& outline, const Region& region, double time);
+
 }  // namespace drumlin::continuum
