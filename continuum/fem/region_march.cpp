@@ -14,6 +14,8 @@
 #include "continuum/fem/detail/time_step.hpp"
 #include "continuum/model/mesh_motion.hpp"
 #include "continuum/model/outline.hpp"
+#include "continuum/model/outline_stub.hpp"
+#include "continuum/model/part_line.hpp"
 #include "continuum/model/region_mesh.hpp"
 #include "coupling/core/basics/errors.hpp"
 
@@ -324,7 +326,8 @@ class FreeFlow {
                {static_cast<unsigned>(side_of_part(static_cast<int>(i)))})) {
         if (!d().owned.is_element(k)) continue;
         const auto& x = places.at(k);
-        const Vec2 t = part_tangent(plan_.region.parts[i], {x[0], x[1]});
+        const PartLine line = line_of(plan_.region.parts[i], state_.time);
+        const Vec2 t = line.tangent(line.nearest({x[0], x[1]}));
         const std::pair<double, std::size_t> here{std::abs(along_x.is_element(k) ? t.x : t.z), i};
         const auto [at, is_new] = part_of.try_emplace(k, here);
         if (!is_new) at->second = std::min(at->second, here);
@@ -348,7 +351,8 @@ class FreeFlow {
       if (edge.part < 0) continue;
       const RegionPart& part = plan_.region.parts[static_cast<std::size_t>(edge.part)];
       if (!std::holds_alternative<CircleCurve>(part.curve)) continue;
-      for (const unsigned int v : {edge.from, edge.to}) x[v] = projected(curve_at(part, time), x[v]);
+      const PartLine line = line_of(part, time);
+      for (const unsigned int v : {edge.from, edge.to}) x[v] = line.at(line.nearest(x[v]));
     }
     return x;
   }
@@ -390,7 +394,7 @@ class FreeFlow {
   // Walls that are no longer there leave a free surface, and so do those that would pull.
   void change_parts() {
     const Outline before = outline_of(state_.mesh);
-    Outline now = without_lost_walls(before, plan_.region, state_.time);
+    Outline now = relabelled(before, plan_.region, state_.time);
     let_go(now);
     if (now.part != before.part) remesh(now);
   }
@@ -421,7 +425,9 @@ class FreeFlow {
     clock_(Work::refinement, [&] {
       const std::shared_ptr<SolvedLevel> old = level_;
       const RegionMesh old_mesh = state_.mesh;
-      state_.mesh = mesh_of(with_area(resampled(outline, plan_.size), state_.area), plan_.size);
+      state_.mesh = mesh_of(with_area(resampled(outline, plan_.region, state_.time, plan_.size), plan_.region,
+                                      state_.time, state_.area),
+                            plan_.size);
       discretise();
       transfer(*old, old_mesh);
       state_.steps_on_mesh = 0;
@@ -491,7 +497,7 @@ class FreeFlow {
     Vec2 best;
     double least = INFINITY;
     for (const auto& edge : mesh.boundary) {
-      const Vec2 at = projected(SegmentCurve{mesh.vertices[edge.from], mesh.vertices[edge.to]}, point);
+      const Vec2 at = nearest_point({mesh.vertices[edge.from], mesh.vertices[edge.to]}, point);
       const double distance = std::hypot(at.x - point.x, at.z - point.z);
       if (distance < least) least = distance, best = at;
     }
@@ -525,10 +531,10 @@ Outline outline_of(const RegionMesh& mesh) {
 }
 
 RegionState filled(const RegionMarch& march) {
-  const Outline fill = outline_of(march.region, 0);
+  const Outline fill = outline_of(march.region, 0, march.size);
   RegionState state;
   state.area = state.totals.fill = area(fill);
-  state.mesh = mesh_of(resampled(fill, march.size), march.size);
+  state.mesh = mesh_of(fill, march.size);
   return state;
 }
 

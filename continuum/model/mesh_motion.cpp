@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "continuum/model/part_line.hpp"
 #include "continuum/model/plane_vector.hpp"
 
 namespace drumlin::continuum {
@@ -14,8 +16,6 @@ constexpr double least_contact_sine = 0.3;
 constexpr double smallest_corner_sine = 0.05;
 constexpr double relaxation = 1.6;  // of Gauss-Seidel's method
 constexpr int most_sweeps = 200;
-constexpr double rounding = 1e-9;
-constexpr double least_rest = 0.02;     // of a side, that is left of it where it is cut
 constexpr double smooth_enough = 1e-4;  // last change over the largest velocity
 
 // How a corner of the mesh may move: by this velocity, or along this direction beside it, or as its
@@ -64,13 +64,17 @@ class Boundary {
 
  private:
   const RegionPart& part(int number) const { return region_.parts[static_cast<std::size_t>(number)]; }
+  Vec2 tangent(const RegionPart& wall, Vec2 point) const {
+    const PartLine line = line_of(wall, time_);
+    return line.tangent(line.nearest(point));
+  }
   Freedom free(unsigned int v, double flux) const {
     const Vec2 normal = material_.free_normal[v], u = material_.velocity[v];
     return {false, {}, u + ((flux - dot(u, normal)) / dot(normal, normal)) * normal};
   }
   Freedom contact(unsigned int v, int number) const {
     const RegionPart& wall = part(number);
-    const Vec2 t = part_tangent(wall, corners_[v]), moves = wall_motion(wall, time_);
+    const Vec2 t = tangent(wall, corners_[v]), moves = wall_motion(wall, time_);
     if (wall.kind == RegionPart::Kind::opening) return {false, {}, {}};
     const Vec2 normal = material_.free_normal[v];
     const double along = dot(normal, t);
@@ -81,12 +85,12 @@ class Boundary {
   }
   Freedom on_parts(unsigned int v, int before, int after) const {
     const Vec2 first = wall_motion(part(before), time_), second = wall_motion(part(after), time_);
-    const Vec2 t = part_tangent(part(before), corners_[v]);
+    const Vec2 t = tangent(part(before), corners_[v]);
     if (before == after) return {false, t, first};
     const bool opens =
         (part(before).kind == RegionPart::Kind::opening) != (part(after).kind == RegionPart::Kind::opening);
     if (opens) return {false, {}, part(before).kind == RegionPart::Kind::opening ? second : first};
-    return {false, {}, meeting(t, first, part_tangent(part(after), corners_[v]), second)};
+    return {false, {}, meeting(t, first, tangent(part(after), corners_[v]), second)};
   }
 
   const Region& region_;
@@ -113,15 +117,6 @@ std::vector<std::vector<unsigned int>> neighbours(const RegionMesh& mesh) {
 
 }  // namespace
 
-Vec2 part_tangent(const RegionPart& part, Vec2 point) {
-  if (const auto* segment = std::get_if<SegmentCurve>(&part.curve)) {
-    const Vec2 along = segment->to - segment->from;
-    return (1 / length(along)) * along;
-  }
-  const Vec2 outward = point - std::get<CircleCurve>(part.curve).center;
-  return (1 / length(outward)) * Vec2{-outward.z, outward.x};
-}
-
 Vec2 wall_motion(const RegionPart& part, double time) { return time >= part.begins ? part.velocity : Vec2{}; }
 
 Vec2 wall_velocity(const RegionPart& part, double time, Vec2 point) {
@@ -129,25 +124,6 @@ Vec2 wall_velocity(const RegionPart& part, double time, Vec2 point) {
   const auto* circle = std::get_if<CircleCurve>(&part.curve);
   if (!circle || time < part.begins) return moves;
   return moves + part.rotation * Vec2{point.z - circle->center.z, circle->center.x - point.x};
-}
-
-std::variant<SegmentCurve, CircleCurve> curve_at(const RegionPart& part, double time) {
-  const Vec2 moved = std::max(0.0, time - part.begins) * part.velocity;
-  if (const auto* segment = std::get_if<SegmentCurve>(&part.curve))
-    return SegmentCurve{segment->from + moved, segment->to + moved};
-  const auto& circle = std::get<CircleCurve>(part.curve);
-  return CircleCurve{circle.center + moved, circle.radius};
-}
-
-Vec2 projected(const std::variant<SegmentCurve, CircleCurve>& curve, Vec2 point) {
-  if (const auto* segment = std::get_if<SegmentCurve>(&curve)) {
-    const Vec2 along = segment->to - segment->from;
-    const double share = std::clamp(dot(point - segment->from, along) / dot(along, along), 0.0, 1.0);
-    return segment->from + share * along;
-  }
-  const auto& [center, radius] = std::get<CircleCurve>(curve);
-  const Vec2 outward = point - center;
-  return center + (radius / length(outward)) * outward;
 }
 
 std::vector<Vec2> corner_velocities(const Region& region, double time, const RegionMesh& mesh,
@@ -177,45 +153,6 @@ std::vector<Vec2> corner_velocities(const Region& region, double time, const Reg
     if (change <= smooth_enough * largest) break;
   }
   return w;
-}
-
-Outline without_lost_walls(const Outline& outline, const Region& region, double time) {
-  Outline left;
-  const auto add = [&](Vec2 point, int part) {
-    left.points.push_back(point);
-    left.part.push_back(part);
-  };
-  const std::size_t n = outline.points.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec2 a = outline.points[i], b = outline.points[(i + 1) % n];
-    const int number = outline.part[i];
-    const RegionPart* part = number < 0 ? nullptr : &region.parts[static_cast<std::size_t>(number)];
-    if (!part || part->ends <= time) {
-      add(a, Outline::free);
-      continue;
-    }
-    const auto curve = curve_at(*part, time);
-    const auto* segment = std::get_if<SegmentCurve>(&curve);
-    const Vec2 along = segment ? segment->to - segment->from : Vec2{};
-    const auto share = [&](Vec2 x) { return dot(x - segment->from, along) / dot(along, along); };
-    const auto inside = [&](double s) { return s > -rounding && s < 1 + rounding; };
-    if (!segment || (inside(share(a)) && inside(share(b)))) {
-      add(a, number);
-      continue;
-    }
-    const double from = share(a), to = share(b);
-    const bool kept_first = inside(from), kept_last = inside(to);
-    add(a, kept_first ? number : Outline::free);
-    if (kept_first == kept_last) continue;
-    const double end = (kept_first ? to : from) < 0.5 ? 0 : 1;  // of the segment, between the two
-    const double at = (end - from) / (to - from);
-    if (at < least_rest || at > 1 - least_rest) {
-      left.part.back() = (at < least_rest) == kept_last ? number : Outline::free;
-      continue;
-    }
-    add(a + at * (b - a), kept_last ? number : Outline::free);
-  }
-  return left;
 }
 
 }  // namespace drumlin::continuum

@@ -2,7 +2,6 @@
 // How the mesh of a region follows its material: the arbitrary Lagrangian-Eulerian motion of the corners of
 // its triangles. The free surface moves with the material, walls keep theirs, and what lies between follows
 // evenly.
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,17 +9,10 @@
 
 namespace drumlin::continuum {
 
-/// Of a part at a point of it: towards its left, and how fast the part moves there.
-Vec2 part_tangent(const RegionPart& part, Vec2 point);
 /// Velocity of the wall itself at a time, of its surface: what material without slip has there.
 Vec2 wall_velocity(const RegionPart& part, double time, Vec2 point);
 /// Of the place of the wall: a circle that turns stays where it is.
 Vec2 wall_motion(const RegionPart& part, double time);
-/// The curve of a part at a time.
-std::variant<SegmentCurve, CircleCurve> curve_at(const RegionPart& part, double time);
-/// The nearest point of a part.
-Vec2 projected(const std::variant<SegmentCurve, CircleCurve>& curve, Vec2 point);
-
 /// What the material does at the corners of the triangles; of the free surface also what flows through it:
 /// integrals over its sides with each corner's hat function.
 struct CornerMotion {
@@ -34,9 +26,5 @@ struct CornerMotion {
 /// contact of the surface with a wall moves along it as the flux asks.
 std::vector<Vec2> corner_velocities(const Region& region, double time, const RegionMesh& mesh,
                                     std::span<const Vec2> corners, const CornerMotion& material);
-
-/// The outline where walls are no longer: sides on a part that has ended are free, and so is what a segment
-/// has slid past or no longer reaches; the end of a segment becomes a point.
-Outline without_lost_walls(const Outline& outline, const Region& region, double time);
 
 }  // namespace drumlin::continuum

@@ -1,5 +1,5 @@
 #pragma once
-// The outline of the material as a polygon: its area, and whether it is one.
+// The outline of the material as a polygon: where it lies on the parts of a region, its points, its area.
 #include <functional>
 #include <optional>
 
@@ -7,17 +7,32 @@
 
 namespace drumlin::continuum {
 
+/// Wanted distance of points, d.
+using SizeField = std::function<double(Vec2)>;
+
+/// The fill, its sides on the parts that are there (see `relabelled`), all divided evenly by `size`; those on
+/// a circle are chords.
+Outline outline_of(const Region& region, double time, const SizeField& size);
+
+/// Sides cut where parts begin and end. A side lies on a part if both its ends do, to 1e-6 of its length; on
+/// a circle, if it goes round less than an eighth of it with the material inside. What lay on a part stays on
+/// it within its ends, though moved off it by some rounding. Openings, closed ones too, go before walls, then
+/// the order of the parts. What lies on none, or on one that is gone, is free.
+Outline relabelled(const Outline& outline, const Region& region, double time);
+
+/// Sides on parts divided anew evenly, their contacts put on the part. Free sides longer than 1.5 size halved
+/// by cubic interpolation, points less than half a size from the one before left out; contacts stay.
+Outline resampled(const Outline& outline, const Region& region, double time, const SizeField& size);
+
 /// Positive: anticlockwise.
 double area(const Outline& outline);
+
+/// Free points moved along their normals, all by the same length, contacts along their walls, so that the
+/// area is exact to rounding. Throws NotConvergedError where nothing is free.
+Outline with_area(const Outline& outline, const Region& region, double time, double target);
 
 /// A place at which two sides meet that are not neighbours, or a side has no length or turns back on the
 /// one before.
 std::optional<Vec2> crosses_itself(const Outline& outline);
-
-// STUB
-Outline outline_of(const Region& region, double time);
-Outline resampled(const Outline& outline, const std::function<double(Vec2)>& size);
-Outline with_area(const Outline& outline, double target);
-Outline laid_down(const Outline& outline, const Region& region, double time, const std::function<double(Vec2)>& size);
 
 }  // namespace drumlin::continuum

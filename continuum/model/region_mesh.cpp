@@ -15,24 +15,25 @@ namespace drumlin::continuum {
 namespace {
 
 constexpr int outside = -1;
-constexpr double rounding = 1e-10;
+constexpr double triangle_rounding = 1e-10;
 // Circumradius over size up to which a triangle is small enough: 0.58 in an equilateral one.
 constexpr double largest_radius = 0.72;
 constexpr double least_height = 0.3;  // of an inner point above a side of the outline, over its length
 constexpr int smoothings = 10;
+constexpr double least_roundness = 0.2;  // below it smoothing makes no triangle worse
 
 struct Triangle {
-  std::array<int, 3> corner;                                    // anticlockwise
+  std::array<int, 3> corner;                                // anticlockwise
   std::array<int, 3> beyond = {outside, outside, outside};  // the triangle opposite to each corner
 };
 
 // Twice the area over the square of the longest side: 0.87 if equilateral.
-double shape(Vec2 a, Vec2 b, Vec2 c) {
+double roundness(Vec2 a, Vec2 b, Vec2 c) {
   return cross(b - a, c - a) / std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
 }
 
 bool holds(Vec2 a, Vec2 b, Vec2 c, Vec2 p) {
-  const double least = -rounding * cross(b - a, c - a);
+  const double least = -triangle_rounding * cross(b - a, c - a);
   return cross(b - a, p - a) >= least && cross(c - b, p - b) >= least && cross(a - c, p - c) >= least;
 }
 
@@ -47,8 +48,8 @@ std::vector<Triangle> clipped_ears(const std::vector<Vec2>& points) {
   const auto worth = [&](std::size_t k) {
     const auto e = ear(k);
     const Vec2 a = points[e[0]], b = points[e[1]], c = points[e[2]];
-    const double value = shape(a, b, c);
-    if (value < rounding) return 0.0;
+    const double value = roundness(a, b, c);
+    if (value < triangle_rounding) return 0.0;
     for (const int i : ring)
       if (i != e[0] && i != e[1] && i != e[2] && holds(a, b, c, points[i])) return 0.0;
     return value;
@@ -60,8 +61,9 @@ std::vector<Triangle> clipped_ears(const std::vector<Vec2>& points) {
     const auto best = std::ranges::max_element(worths);
     const auto k = static_cast<std::size_t>(best - worths.begin());
     if (*best == 0)
-      throw NotConvergedError(fmt::format("the outline of the material is too thin to be meshed near ({:g}, {:g})",
-                                          points[ring[k]].x, points[ring[k]].z));
+      throw NotConvergedError(
+          fmt::format("the outline of the material is too thin to be meshed near ({:g}, {:g})",
+                      points[ring[k]].x, points[ring[k]].z));
     triangles.push_back({ear(k)});
     ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(k));
     worths.erase(best);
@@ -108,19 +110,19 @@ class Triangulation {
   // Moves each inner point to the centroid of the triangles about it, smaller ones counted more.
   void smooth(const std::function<double(Vec2)>& size) {
     std::vector<Vec2> sums(points_.size());
-    std::vector<double> weights(points_.size()), shapes;
+    std::vector<double> weights(points_.size()), before_smoothing;
     for (int t = 0; t < count(); ++t) {
       const Vec2 center = centroid(t);
       const double s = size(center), weight = twice_area(t) / (s * s * s * s);
       for (const int c : triangles_[t].corner) sums[c] = sums[c] + weight * center, weights[c] += weight;
-      shapes.push_back(shape_of(t));
+      before_smoothing.push_back(roundness_of(t));
     }
     const std::vector<Vec2> before = points_;
     for (std::size_t i = fixed_; i < points_.size(); ++i) points_[i] = (1 / weights[i]) * sums[i];
     for (bool restored = true; restored;) {
       restored = false;
       for (int t = 0; t < count(); ++t)
-        if (shape_of(t) < std::min(0.5, shapes[t]))
+        if (roundness_of(t) < std::min(least_roundness, before_smoothing[t]))
           for (const int c : triangles_[t].corner)
             if (length(points_[c] - before[c]) > 0) points_[c] = before[c], restored = true;
     }
@@ -132,7 +134,7 @@ class Triangulation {
   Vec2 at(int t, int k) const { return points_[triangles_[t].corner[k % 3]]; }
   int from(int t, int k) const { return triangles_[t].corner[(k + 1) % 3]; }  // of the side opposite to k
   int to(int t, int k) const { return triangles_[t].corner[(k + 2) % 3]; }
-  double shape_of(int t) const { return shape(at(t, 0), at(t, 1), at(t, 2)); }
+  double roundness_of(int t) const { return roundness(at(t, 0), at(t, 1), at(t, 2)); }
   double twice_area(int t) const { return cross(at(t, 1) - at(t, 0), at(t, 2) - at(t, 0)); }
   Vec2 centroid(int t) const { return (1.0 / 3) * (at(t, 0) + at(t, 1) + at(t, 2)); }
   Vec2 circumcenter(int t) const {
@@ -149,10 +151,11 @@ class Triangulation {
     const double sine = cross(b - a, c - a), cosine = dot(b - a, c - a);
     const double far_sine = cross(c - d, b - d), far_cosine = dot(c - d, b - d);
     return sine * far_cosine + cosine * far_sine <
-           -rounding * std::hypot(sine, cosine) * std::hypot(far_sine, far_cosine);
+           -triangle_rounding * std::hypot(sine, cosine) * std::hypot(far_sine, far_cosine);
   }
   int opposite(int t, int other) const {  // corner of `other` that faces t
-    return static_cast<int>(std::ranges::find(triangles_[other].beyond, t) - triangles_[other].beyond.begin());
+    return static_cast<int>(std::ranges::find(triangles_[other].beyond, t) -
+                            triangles_[other].beyond.begin());
   }
   void relink(int t, int old_neighbour, int neighbour) {
     if (t != outside) triangles_[t].beyond[opposite(old_neighbour, t)] = neighbour;
@@ -198,7 +201,7 @@ class Triangulation {
       const double height = cross(b - a, p - a) / dot(b - a, b - a);
       const int next = triangles_[t].beyond[k];
       if (next == outside && height < least_height) return {};
-      if (height < -rounding)
+      if (height < -triangle_rounding)
         t = next, k = 0;
       else
         ++k;

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuum/model/mesh_motion.hpp"
-#include "continuum/model/outline.hpp"
+#include "continuum/model/part_line.hpp"
 #include "coupling/core/results/kernel_nodes.hpp"
 
 namespace drumlin::continuum {
@@ -28,7 +27,7 @@ RegionMarch region_march(const RegionFlow& flow, double coarsening) {
   march.size = [openings, coarsening, cell = flow.cell, slot = flow.slot_cell](Vec2 x) {
     double size = cell;
     for (const SegmentCurve& opening : openings)
-      size = std::min(size, slot + growth / coarsening * distance(x, projected(opening, x)));
+      size = std::min(size, slot + growth / coarsening * distance(x, nearest_point(opening, x)));
     return coarsening * size;
   };
   march.end = flow.end;
