@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "coupling/core/documents/key_table.hpp"
+#include "continuum/model/flow_region_keys.hpp"
 
 namespace drumlin::continuum {
 
@@ -52,6 +52,9 @@ template <class Visitor>
 void describe(Visitor& v, FlowGravity& g) {
   v.value("acceleration_m_s2", g.acceleration_m_s2,
           defaulted("m/s2", above(0, 1e4), "Part of the units even without weight."));
+  v.value("direction_deg", g.direction_deg,
+          when_given("deg", at_least(-360, 360),
+                     "Of a region, anticlockwise from +x; absent: -90, down. Elsewhere refused."));
 }
 template <class Visitor>
 void describe(Visitor& v, FlowMesh& m) {
@@ -151,16 +154,28 @@ void describe(Visitor& v, FlowScene& s) {
                  alternative<FlowIncline>("incline", "layer on a plane."),
                  alternative<FlowPlaneShear>("plane_shear", "between plates."),
                  alternative<FlowChute>("chute", "between upright walls."),
-                 alternative<FlowAnnulus>("annulus", "between cylinders."));
+                 alternative<FlowAnnulus>("annulus", "between cylinders."),
+                 alternative<FlowRegion>("region", "walls and what they hold, in time."));
   v.table("grains", s.grains, Need::required, "The grains.");
   v.table("gravity", s.gravity, Need::defaulted, "Gravity.");
-  v.table("mesh", s.mesh, Need::defaulted, "Meshes.");
+  const auto of_region = [&](auto own, auto others) {
+    v.template with_table<FlowRegion>(s.geometry, "region", own, others);
+  };
+  of_region(
+      [&](FlowRegion& r) {
+        v.tables("walls", r.walls, 1, "One table per shape.");
+        v.tables("openings", r.openings, 0, "Material leaves through them.");
+        v.table("mesh", r.mesh, Need::defaulted, "Mesh of the material.");
+      },
+      [&] { v.table("mesh", s.mesh, Need::defaulted, "Meshes."); });
   v.optional_table("boundary", s.boundary, "Of a drum; elsewhere refused.");
   v.table("effects", s.effects, Need::defaulted, "Of a drum alone.");
-  v.optional_table("time", s.time, "Steps of a drum; absent: steady flow.");
+  of_region([&](FlowRegion& r) { v.table("time", r.time, Need::required, "Steps in time."); },
+            [&] { v.optional_table("time", s.time, "Steps of a drum; absent: steady flow."); });
   v.table("regularisation", s.regularisation, Need::defaulted, "Smoothing of the law.");
   v.table("solver", s.solver, Need::defaulted, "Newton solver.");
-  v.table("output", s.output, Need::defaulted, "Profiles and maps.");
+  of_region([&](FlowRegion& r) { v.table("output", r.output, Need::defaulted, "Frames."); },
+            [&] { v.table("output", s.output, Need::defaulted, "Profiles and maps."); });
 }
 
 namespace {
@@ -219,6 +234,16 @@ void refuse_keys_of_the_drum(const Document& document, const FlowScene& scene,
   if (scene.output.slice_width) refuse("output.slice_width");
 }
 
+// What a region has of its own, or not at all.
+void check_scene_of_region(const Document& document, FlowScene& scene, std::vector<InputProblem>& problems) {
+  const auto& region = std::get<FlowRegion>(scene.geometry);
+  check_region(document, region, problems);
+  if (scene.solver.sensitivity)
+    problems.push_back(
+        problem_at(document, "solver.sensitivity", "is one of the steady flow", "absent with [region]"));
+  if (!scene.gravity.direction_deg) scene.gravity.direction_deg = -90;
+}
+
 // Below, p_min adds more than 10 % to the law's p: the flow would be one of p_min.
 constexpr double least_pressure = 3;  // of p_min
 
@@ -247,6 +272,11 @@ FlowScene scene_of(const Document& document) {
       check_drum(document, scene, problems);
     else
       refuse_keys_of_the_drum(document, scene, problems);
+    if (std::holds_alternative<FlowRegion>(scene.geometry))
+      check_scene_of_region(document, scene, problems);
+    else if (scene.gravity.direction_deg)
+      problems.push_back(
+          problem_at(document, "gravity.direction_deg", "belongs to a region", "absent without [region]"));
     check_pressure(document, scene, problems);
     if (const auto* ring = std::get_if<FlowAnnulus>(&scene.geometry);
         ring && ring->outer_radius_mm <= ring->inner_radius_mm)

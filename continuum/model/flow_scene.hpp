@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "continuum/model/flow_region.hpp"
 #include "coupling/core/basics/scales.hpp"
 #include "coupling/core/documents/key_lister.hpp"
 
@@ -39,7 +40,7 @@ struct FlowAnnulus {
   double rotation_rpm = 0;
   double pressure_pa = 0;
 };
-using FlowGeometry = std::variant<FlowDrum, FlowIncline, FlowPlaneShear, FlowChute, FlowAnnulus>;
+using FlowGeometry = std::variant<FlowDrum, FlowIncline, FlowPlaneShear, FlowChute, FlowAnnulus, FlowRegion>;
 
 /// Their sizes and density give the units; in a drum, their total area over the law's nu is the area of the
 /// flow domain.
@@ -51,6 +52,7 @@ struct FlowGrains {
 };
 struct FlowGravity {
   double acceleration_m_s2 = 9.81;
+  std::optional<double> direction_deg;  ///< of a region alone, and always there
 };
 struct FlowMesh {
   double surface_cell = 1;   ///< d, of the finest mesh
@@ -123,7 +125,7 @@ struct FlowScene {
   FlowGeometry geometry;
   FlowGrains grains;
   FlowGravity gravity;
-  FlowMesh mesh;
+  FlowMesh mesh;                         ///< of no region, which has its own, as of time and output
   std::optional<FlowBoundary> boundary;  ///< of a drum alone, and always there
   FlowEffects effects;                   ///< of a drum alone
   std::optional<FlowTime> time;          ///< of a drum alone; absent: the steady flow

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <type_traits>
 
 #include "continuum/model/scene_effects.hpp"
 
@@ -96,10 +95,10 @@ Gap gap_of(const FlowAnnulus& ring, const Scales& scales, double nu) {
 Gap gap_of(const FlowScene& scene, double nu) {
   return std::visit(
       [&](const auto& geometry) -> Gap {
-        if constexpr (std::is_same_v<std::decay_t<decltype(geometry)>, FlowDrum>)
-          throw std::logic_error("a drum is no gap");
-        else
+        if constexpr (requires { gap_of(geometry, scales_of(scene), nu); })
           return gap_of(geometry, scales_of(scene), nu);
+        else
+          throw std::logic_error("a drum or a region is no gap");
       },
       scene.geometry);
 }

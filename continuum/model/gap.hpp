@@ -33,7 +33,7 @@ Gap gap_of(const FlowIncline& incline, const Scales& scales, double nu);
 Gap gap_of(const FlowPlaneShear& shear, const Scales& scales, double nu);
 Gap gap_of(const FlowChute& chute, const Scales& scales, double nu);
 Gap gap_of(const FlowAnnulus& ring, const Scales& scales, double nu);
-/// Of a scene without a drum.
+/// Of a scene with one of these.
 Gap gap_of(const FlowScene& scene, double nu);
 
 /// sigma_zz at the distance y from the top, from statics (k = 1 in an annulus).

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "continuum/postprocessing/drum_profiles.hpp"
+#include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::continuum {
 namespace {
@@ -96,6 +97,11 @@ FlowCase gap_case(const FlowScene& scene, const RheologyFit& law) {
 }  // namespace
 
 FlowCase flow_case(const FlowScene& scene, const RheologyFit& law) {
+  if (std::holds_alternative<FlowRegion>(scene.geometry))
+    throw InputError({InputProblem{.file = "",
+                                   .key = "region",
+                                   .what = "is not solved yet",
+                                   .allowed = "drum, incline, plane_shear, chute, annulus"}});
   FlowCase made =
       std::holds_alternative<FlowDrum>(scene.geometry) ? drum_case(scene, law) : gap_case(scene, law);
   made.law_I_max = made.problem.memory ? made.problem.memory->law.mu.I.back() : largest_measured_I(law.mu);

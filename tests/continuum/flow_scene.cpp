@@ -61,8 +61,8 @@ TEST(FlowScene, HasTheEffectsThatItNamesAndNoOther) {
   expect_read_back(march);
 }
 
-TEST(FlowScene, TakesOneOfFiveGeometries) {
-  const char* names[] = {"drum-smoke", "incline", "plane-shear", "chute", "annulus"};
+TEST(FlowScene, TakesOneOfItsGeometries) {
+  const char* names[] = {"drum-smoke", "incline", "plane-shear", "chute", "annulus", "column-collapse"};
   for (std::size_t k = 0; k < std::size(names); ++k) {
     const FlowScene scene = parse_flow_scene(text_of(names[k]), "test");
     EXPECT_EQ(scene.geometry.index(), k) << names[k];
@@ -76,7 +76,7 @@ TEST(FlowScene, TakesOneOfFiveGeometries) {
   EXPECT_TRUE(smoke.reduced);
   const std::string grains = "[grains]\ndiameter_min_mm = 3.0\ndiameter_max_mm = 3.6\ndensity_kg_m3 = 2700\n";
   const std::string format = "format = \"drumlin-flow-scene-1\"\n";
-  expect_has(refusal(format + grains), "one table of drum, incline, plane_shear, chute, annulus");
+  expect_has(refusal(format + grains), "one table of drum, incline, plane_shear, chute, annulus, region");
   expect_has(refusal(format + "[drum]\ndiameter_mm = 150\nrotation_rpm = 15\n" + grains), "grains.count");
 }
 

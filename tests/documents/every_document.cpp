@@ -39,7 +39,8 @@ std::vector<Kind> kinds() {
           {continuum::flow_scene_keys(),
            flow,
            {data / "drum-6rpm-flow.toml", data / "drum-6rpm-memory-flow.toml", data / "incline-flow.toml",
-            data / "plane-shear-flow.toml", data / "chute-flow.toml", data / "annulus-flow.toml"},
+            data / "plane-shear-flow.toml", data / "chute-flow.toml", data / "annulus-flow.toml",
+            data / "column-collapse-flow.toml", here / "every_key_region.toml"},
            "[effects.wall_slip]\nfriction = 0.4\n[effects.nonlocal]\nlength = 1\n"
            "[effects.moving_surface]\n"}};
 }

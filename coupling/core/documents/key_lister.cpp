@@ -56,10 +56,11 @@ std::string default_cell(const KeyRow& row) {
   return is_table_row(row) || row.standard == "absent" ? row.standard : "`" + cell(row.standard) + "`";
 }
 
-/// The word of `kind = "word"` that a key is of; empty for a key of no alternative.
+/// The word of `kind = "word"`, or the [table], that a key is of; empty for a key of no alternative.
 std::string choice_of(const KeyRow& row) {
   const std::size_t quote = row.condition.find('"');
-  return row.condition.empty() ? "" : row.condition.substr(quote + 1, row.condition.rfind('"') - quote - 1);
+  return quote == std::string::npos ? row.condition
+                                    : row.condition.substr(quote + 1, row.condition.rfind('"') - quote - 1);
 }
 
 /// Whether two rows say the same of one key of two alternatives.

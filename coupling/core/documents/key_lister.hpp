@@ -67,6 +67,14 @@ class KeyLister {
   void one_table_of(V& target, const std::string& sentence, const Alternative<T>&... options) {
     (list_table(target, sentence, options), ...);
   }
+  template <class T, class V, class Own, class Others>
+  void with_table(V& target, const std::string& word, Own own, Others others) {
+    others();
+    const std::size_t first = rows_.size();
+    own(target.template emplace<T>());
+    for (std::size_t row = first; row < rows_.size(); ++row)
+      if (rows_[row].condition.empty()) rows_[row].condition = "[" + word + "]";
+  }
   std::vector<KeyRow> take() { return std::move(rows_); }
 
  private:

@@ -269,26 +269,16 @@ void KeyReader::assign(const Node& node, const std::string& key, std::filesystem
   if (!text.empty()) target = text;
 }
 
-void KeyReader::assign(const Node& node, const std::string& key, std::vector<double>& target,
-                       const KeySpec& spec) {
+const Node::Array* KeyReader::filled_array(const Node& node, const std::string& key, const std::string& type,
+                                           const KeySpec& spec) {
   const auto* entries = std::get_if<Node::Array>(&node.value);
-  if (!entries) return report(node, key, "is " + kind_of(node), wish("array of numbers", spec));
-  if (entries->empty() && !spec.allowed.may_be_empty)
-    return report(node, key, "is empty", wish("array of numbers", spec));
-  target.assign(entries->size(), 0);
-  for (std::size_t i = 0; i < entries->size(); ++i)
-    assign((*entries)[i], fmt::format("{}.{}", key, i), target[i], spec);
-}
-
-void KeyReader::assign(const Node& node, const std::string& key, std::vector<std::string>& target,
-                       const KeySpec& spec) {
-  const auto* entries = std::get_if<Node::Array>(&node.value);
-  if (!entries) return report(node, key, "is " + kind_of(node), wish("array of texts", spec));
-  if (entries->empty() && !spec.allowed.may_be_empty)
-    return report(node, key, "is empty", wish("array of texts", spec));
-  target.assign(entries->size(), "");
-  for (std::size_t i = 0; i < entries->size(); ++i)
-    assign((*entries)[i], fmt::format("{}.{}", key, i), target[i], spec);
+  if (!entries)
+    report(node, key, "is " + kind_of(node), wish(type, spec));
+  else if (!entries->empty() || spec.allowed.may_be_empty)
+    return entries;
+  else
+    report(node, key, "is empty", wish(type, spec));
+  return nullptr;
 }
 
 void KeyReader::assign_fixed(const Node& node, const std::string& key, double* target, std::size_t count,

@@ -71,6 +71,14 @@ class KeyReader {
     const std::string word = present_table({options.word...});
     if (!word.empty()) (choose_table(word, target, options), ...);
   }
+  /// Tables beside that of the alternative T: `own` describes those of T, `others` those of all the rest.
+  template <class T, class V, class Own, class Others>
+  void with_table(V& target, const std::string&, Own own, Others others) {
+    if (auto* held = std::get_if<T>(&target))
+      own(*held);
+    else
+      others();
+  }
 
  private:
   struct Level {
@@ -93,8 +101,6 @@ class KeyReader {
   void assign(const Node&, const std::string& key, double&, const KeySpec&);
   void assign(const Node&, const std::string& key, std::string&, const KeySpec&);
   void assign(const Node&, const std::string& key, std::filesystem::path&, const KeySpec&);
-  void assign(const Node&, const std::string& key, std::vector<double>&, const KeySpec&);
-  void assign(const Node&, const std::string& key, std::vector<std::string>&, const KeySpec&);
   template <Named E>
   void assign(const Node& node, const std::string& key, E& target, const KeySpec& spec) {
     std::string text;
@@ -105,6 +111,17 @@ class KeyReader {
   void assign(const Node& node, const std::string& key, std::array<double, N>& target, const KeySpec& spec) {
     assign_fixed(node, key, target.data(), N, spec);
   }
+  template <class T>
+  void assign(const Node& node, const std::string& key, std::vector<T>& target, const KeySpec& spec) {
+    const Node::Array* entries = filled_array(node, key, type_name<std::vector<T>>(), spec);
+    if (!entries) return;
+    target.assign(entries->size(), T{});
+    for (std::size_t i = 0; i < entries->size(); ++i)
+      assign((*entries)[i], key + "." + std::to_string(i), target[i], spec);
+  }
+  /// Null where it is none, or an empty one that must not be.
+  const Node::Array* filled_array(const Node&, const std::string& key, const std::string& type,
+                                  const KeySpec&);
   void assign_fixed(const Node&, const std::string& key, double* target, std::size_t count, const KeySpec&);
   bool integer(const Node&, const std::string& key, std::int64_t& target, const KeySpec&,
                std::int64_t largest);

@@ -73,6 +73,8 @@ std::string type_name() {
     return "array of texts";
   else if constexpr (std::is_same_v<T, std::vector<double>>)
     return "array of numbers";
+  else if constexpr (std::is_same_v<T, std::vector<std::array<double, 2>>>)
+    return "array of pairs of numbers";
   else
     return "array of " + std::to_string(std::tuple_size_v<T>) + " numbers";
 }

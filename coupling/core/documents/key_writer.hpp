@@ -49,6 +49,14 @@ class KeyWriter {
   void one_table_of(V& source, const std::string&, const Alternative<T>&... options) {
     (write_table_if_held(source, options), ...);
   }
+  /// Tables beside that of the alternative T: `own` describes those of T, `others` those of all the rest.
+  template <class T, class V, class Own, class Others>
+  void with_table(V& target, const std::string&, Own own, Others others) {
+    if (auto* held = std::get_if<T>(&target))
+      own(*held);
+    else
+      others();
+  }
   Node take() { return std::move(root_); }
 
  private:
