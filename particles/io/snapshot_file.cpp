@@ -165,6 +165,12 @@ Snapshot read_snapshot(const std::filesystem::path& file) {
   return s;
 }
 
+double snapshot_time(const std::filesystem::path& file) {
+  const H5Reader in(file);
+  in.require_format(snapshot_format);
+  return in.number("time", H5Range::finite);
+}
+
 std::vector<std::filesystem::path> snapshot_files(const std::filesystem::path& run) {
   std::vector<std::filesystem::path> files;
   std::error_code error;

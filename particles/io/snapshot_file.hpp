@@ -15,6 +15,8 @@ std::string snapshot_image(const Snapshot& snapshot);
 void write_snapshot(const std::filesystem::path& file, const Snapshot& snapshot);
 /// Throws InputError when the file is missing, damaged (CRC), of another version, or inconsistent.
 Snapshot read_snapshot(const std::filesystem::path& file);
+/// Its time alone, sqrt(d/g).
+double snapshot_time(const std::filesystem::path& file);
 /// The snapshot files of a run folder, in order of their numbers.
 std::vector<std::filesystem::path> snapshot_files(const std::filesystem::path& run);
 

@@ -58,7 +58,7 @@ nlohmann::json measured_json(const fs::path& run) {
 
 MeasureOptions options_for(const fs::path& run, ExistingOutput existing = ExistingOutput::refuse) {
   MeasureOptions options;
-  options.run = run;
+  options.runs = {run};
   options.existing = existing;
   return options;
 }
@@ -147,7 +147,7 @@ TEST(MeasureCommand, RefusesSlicesInOnePlaceOrNowhere) {
   for (const std::vector<double>& slices : {std::vector{1.21, 1.24}, {std::nan("")}, {1e300}}) {
     options.slices = slices;
     EXPECT_THROW((void)measure(options), InputError);
-    EXPECT_FALSE(fs::exists(options.run / "measured"));
+    EXPECT_FALSE(fs::exists(options.run() / "measured"));
   }
 }
 

@@ -32,10 +32,10 @@ Json request_of(const particles::Measurement& measured, const MeasureOptions& op
   const particles::MeasurementFrame& place = measured.place;
   const particles::LayerGrid grid =
       particles::slice_grid(place, options.position, place.slice_width, options.layer_thickness);
-  const auto friction = one_friction(options.run / "scene.toml");
+  const auto friction = one_friction(options.run() / "scene.toml");
   const auto number = [](double value) { return number_or_null(value); };
   return {
-      {"run", options.run.string()},
+      {"run", options.run().string()},
       {"first", measured.first_snapshot},
       {"batches", place.batches},
       {"interval_factor", place.batches > 1 ? Json(particles::interval_factor(place.batches)) : Json()},

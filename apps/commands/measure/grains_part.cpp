@@ -46,7 +46,7 @@ particles::GrainRecord record_of(particles::Snapshot snapshot, const particles::
 
 Part grains_part(const MeasureOptions& options) {
   // Refused before the first snapshot is read.
-  const auto files = particles::listed_snapshots(options.run, particles::snapshot_files(options.run),
+  const auto files = particles::listed_snapshots(options.run(), particles::snapshot_files(options.run()),
                                                  "--grains", options.grains);
   auto mean_velocity = std::make_shared<std::optional<particles::VelocityMap>>();
   Part part;

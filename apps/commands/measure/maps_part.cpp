@@ -64,10 +64,10 @@ void write(const particles::Measurement& measured, const PartOutput& output, con
   output.content["momentum_balance"] = maps.measured.balance;
   output.content["mu_invariant"] = collapse_of(maps.measured.friction, maps.measured.friction_ci99);
   output.content["settings"]["maps"] = {
-      {"spacing", options.map_spacing},      {"kernel_width", options.map_width},
-      {"least_nu", least_map_nu}, {"displacement_interval", maps.measured.displacement_interval},
-      {"bulk_margin", limits.margin},        {"block", limits.block},
-      {"flowing_I", limits.flowing_I},       {"mu_fit_I", {limits.I_min, limits.I_max}}};
+      {"spacing", options.map_spacing}, {"kernel_width", options.map_width},
+      {"least_nu", least_map_nu},       {"displacement_interval", maps.measured.displacement_interval},
+      {"bulk_margin", limits.margin},   {"block", limits.block},
+      {"flowing_I", limits.flowing_I},  {"mu_fit_I", {limits.I_min, limits.I_max}}};
   file->save();
 }
 
@@ -109,7 +109,7 @@ Part maps_part(const MeasureOptions& options) {
   part.figures = "measure_maps.py";
   part.reading.begin = [maps, options](const particles::MeasurementFrame& place) {
     maps->reading = particles::begun_maps(place, options.map_spacing, options.map_width,
-                                          std::make_shared<ScratchFile>(options.run));
+                                          std::make_shared<ScratchFile>(options.run()));
   };
   part.reading.add = [maps](const particles::Snapshot& snapshot, const particles::FlowSnapshot& in_frame,
                             std::size_t batch) {

@@ -11,6 +11,7 @@
 
 #include "apps/commands/accuracy_statement.hpp"
 #include "apps/commands/measure/content.hpp"
+#include "apps/commands/measure/frames_at.hpp"
 #include "apps/commands/measure/part.hpp"
 #include "apps/commands/measure/summary.hpp"
 #include "apps/commands/run_accuracy.hpp"
@@ -63,7 +64,7 @@ Json finished_run(const ResultFolder& folder) {
 
 particles::MeasurementOptions settings_for(const MeasureOptions& options) {
   particles::MeasurementOptions settings;
-  settings.scratch_folder = options.run;
+  settings.scratch_folder = options.run();
   settings.position = options.position;
   settings.slice_width = options.slice_width;
   settings.layer_thickness = options.layer_thickness;
@@ -136,8 +137,8 @@ void write_series(const fs::path& file, const particles::TimeSeries& series) {
 /// What is known beside the intervals; nothing of another program's run.
 Json statement_of(const MeasureOptions& options, const Json& run, const particles::Measurement& measured,
                   const ScalarSet& scalars) {
-  if (run.value("imported", false) || !fs::exists(options.run / "scene.toml")) return {};
-  const particles::Scene scene = particles::read_scene(options.run / "scene.toml");
+  if (run.value("imported", false) || !fs::exists(options.run() / "scene.toml")) return {};
+  const particles::Scene scene = particles::read_scene(options.run() / "scene.toml");
   const double snapshots = static_cast<double>(measured.series.time.size());
   const double both_ends =
       snapshots > 1 ? snapshots / (snapshots - 1) : 1;  // each snapshot stands for a stretch
@@ -216,7 +217,7 @@ ScalarSet all_scalars(const Request& request, const particles::Measurement& meas
   const ScalarSet accuracy =
       request.run.value("imported", false)
           ? ScalarSet{}
-          : particles::accuracy_scalars(request.options.run / "log.csv", measured.first_time() * second,
+          : particles::accuracy_scalars(request.options.run() / "log.csv", measured.first_time() * second,
                                         measured.last_time() * second);
   for (const ScalarSet& more : {friction, accuracy})
     scalars.scalars.insert(scalars.scalars.end(), more.scalars.begin(), more.scalars.end());
@@ -272,18 +273,18 @@ int measure_run(const MeasureOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   check_parts(options.parts);
   check_slices(options.slices);
-  ResultsRequest asked = results_of(options, "measure", options.run / "measured", "measured.json");
-  asked.computed_from = options.run;
+  ResultsRequest asked = results_of(options, "measure", options.run() / "measured", "measured.json");
+  asked.computed_from = options.run();
   if (is_done_already(asked)) return static_cast<int>(ExitCode::done);
-  (void)run_in(options.run);  // a lock is left in no folder of somebody else
-  const FolderLock run_lock(options.run / folder_lock_name, "drumlin measure");
-  const ResultFolder run_folder = run_in(options.run);
+  (void)run_in(options.run());  // a lock is left in no folder of somebody else
+  const FolderLock run_lock(options.run() / folder_lock_name, "drumlin measure");
+  const ResultFolder run_folder = run_in(options.run());
   check_all_files(run_folder);
   Request request{options, settings_for(options), {}, finished_run(run_folder), false, {}};
   request.reduced = request.run.value("reduced", false);
-  const auto files = particles::snapshot_files(options.run);
+  const auto files = particles::snapshot_files(options.run());
   if (files.empty())
-    throw InputError(options.run.string() + ": holds no snapshots: there is nothing to measure");
+    throw InputError(options.run().string() + ": holds no snapshots: there is nothing to measure");
   request.parts = reading_parts(options);
   Results results(asked);
   const fs::path& folder = results.begin();
@@ -312,7 +313,7 @@ int measure_run(const MeasureOptions& options) {
   print_results(request, asked.folder, measured, scalars, options.verbose);
   print_accuracy(request, statement, scalars);
   print_out(fmt::format("next: drumlin calibrate {} -o rheology.toml, or drumlin report {}\n",
-                        options.run.string(), options.run.string()));
+                        options.run().string(), options.run().string()));
   throw_if_figures_failed(asked.folder / asked.finished, failures);
   return static_cast<int>(ExitCode::done);
 }
@@ -320,8 +321,10 @@ int measure_run(const MeasureOptions& options) {
 }  // namespace
 
 int measure(const MeasureOptions& options) {
-  if (options.study.empty() == options.run.empty())
+  if (options.study.empty() == options.runs.empty())
     throw InputError("measure: one of RUN and --study RUN... is required");
+  if (!options.at.empty()) return measure_frames(options);
+  if (options.runs.size() > 1) throw InputError("measure: several runs need --at TIMES");
   if (options.study.empty() == options.output.has_value())
     throw InputError("measure: --study RUN... together with --output STUDY is required");
   return options.study.empty()
@@ -330,7 +333,8 @@ int measure(const MeasureOptions& options) {
 }
 
 Command measure_command() {
-  return command("measure", "Profiles and scalars of a run, into RUN/measured", measure);
+  return command("measure", "Profiles and scalars of a run, into RUN/measured; or its fields at given times",
+                 measure);
 }
 
 }  // namespace drumlin::apps

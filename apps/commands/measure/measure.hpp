@@ -5,9 +5,9 @@
 namespace drumlin::apps {
 
 struct MeasureOptions {
-  std::filesystem::path run;                    ///< empty: a study
+  std::vector<std::filesystem::path> runs;      ///< empty: a study; several: frames
   std::vector<std::filesystem::path> study;     ///< measured runs
-  std::optional<std::filesystem::path> output;  ///< of a study
+  std::optional<std::filesystem::path> output;  ///< of a study or of frames
   double slice_width = 20;                      ///< d
   double layer_thickness = 1;                   ///< d
   double position = 0;                          ///< x of the slice, d
@@ -18,19 +18,36 @@ struct MeasureOptions {
   double map_width = 1;               ///< d, of their kernel
   std::vector<std::string> radial;    ///< centre of rings: "axis", or x and z in d; empty: none
   std::vector<double> height, width;  ///< x0, x1 of a profile over the height; z0, z1 of one over the width
+  std::vector<std::string> at;        ///< times of frames, s since `origin`; empty: no frames
+  double origin = 0;                  ///< s
+  std::vector<double> x, z;           ///< x0, x1 and z0, z1 of the nodes of frames, d; empty: of all grains
+  std::optional<double> nu_bulk;      ///< of frames; absent: of the fill at the origin
   std::string grains;  ///< snapshots whose grains get their fields written, a list as in export; empty: none
   bool verbose = false;
   std::optional<std::filesystem::path> accuracy;  ///< absent: a shipped record, if there is one
   ExistingOutput existing = ExistingOutput::refuse;
 
+  const std::filesystem::path& run() const { return runs.front(); }
+
   void describe(Description& d) {
     // What was measured belongs to its run as that is now: the source of the results says so.
-    d.add("run", run, "RUN", "Folder of a finished run").decides(Decides::nothing);
+    d.add("runs", runs, "RUN", "Folder of a finished run; of several with --at").decides(Decides::nothing);
     d.add("--study", study, "RUN",
           "Measured runs to be studied together instead: laws over the speed of rotation, the paper's table, "
           "figures")
         .decides(study.empty() ? Decides::nothing : Decides::measured);
-    d.output(output, "STUDY", "Folder for the study; open its index.html");
+    d.output(output, "DIR", "Folder for the study, open its index.html; for the frames of --at");
+    d.add("--at", at, "TIMES",
+          "Fields, surface and loads at these times of all runs instead, side by side in frames.h5: seconds "
+          "since --origin, or from:to:step")
+        .needs("--output")
+        .excludes("--study");
+    d.add("--origin", origin, "s", anything(), "Time of the scene that is 0 for --at").needs("--at");
+    d.add("--x", x, "X0,X1", "Nodes of --at from X0 to X1, in d; absent: around all grains").needs("--at");
+    d.add("--z", z, "Z0,Z1", "Nodes of --at from Z0 to Z1, in d; absent: around all grains").needs("--at");
+    d.add("--nu-bulk", nu_bulk, "", above(0, 1),
+          "Volume fraction of the bulk for --at; absent: of the fill at the origin")
+        .needs("--at");
     d.add("--slice-width", slice_width, "d", above(0), "Width of the slice, across its middle");
     d.add("--layer-thickness", layer_thickness, "d", at_least(1e-3), "Thickness of the layers");
     d.add("--position", position, "d", anything(),

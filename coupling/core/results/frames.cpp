@@ -40,24 +40,21 @@ std::string fault_of(const Frames& frames) {
   return {};
 }
 
-void set_fields(std::size_t node, const MapGrid& grid, const NodeFlow& flow, Frame& frame) {
-  const auto set = [&](const char* name, double value) {
-    std::vector<double>& values = frame.fields[name];
-    if (values.empty()) values.assign(grid.nodes(), no_value);
-    values[node] = value;
-  };
-  const bool empty = !(flow.nu >= least_map_nu);
-  const PlaneMatrix& P = flow.pressure;
-  const PlaneInvariants at = plane_invariants(P, flow.gradient);
-  set("nu", flow.nu);
-  set("v_x", empty ? no_value : flow.v_x);
-  set("v_z", empty ? no_value : flow.v_z);
-  set("sigma_xx", empty ? no_value : P.xx);
-  set("sigma_zz", empty ? no_value : P.zz);
-  set("sigma_xz", empty ? no_value : -P.xz);
-  set("I", empty ? no_value : at.I);
-  set("mu", empty ? no_value : at.mu);
-  set("p", empty ? no_value : at.p);
+void set_fields(const MapGrid& grid, double nu_bulk, const std::function<NodeFlow(std::size_t)>& flow_at,
+                Frame& frame) {
+  constexpr std::array names{"nu", "v_x", "v_z", "sigma_xx", "sigma_zz", "sigma_xz", "I", "mu", "p"};
+  std::array<std::vector<double>, names.size()> fields;
+  fields.fill(std::vector<double>(grid.nodes(), no_value));
+  for (std::size_t node = 0; node < grid.nodes(); ++node) {
+    const auto [nu, v_x, v_z, gradient, pressure] = flow_at(node);
+    fields[0][node] = nu;
+    if (!(nu >= least_map_nu)) continue;
+    const PlaneInvariants at = plane_invariants(pressure, gradient);
+    const std::array values{nu, v_x, v_z, pressure.xx, pressure.zz, -pressure.xz, at.I, at.mu, at.p};
+    for (std::size_t f = 0; f < names.size(); ++f) fields[f][node] = values[f];
+  }
+  frame.height = surface_heights(grid, fields[0], nu_bulk / 2);
+  for (std::size_t f = 0; f < names.size(); ++f) frame.fields[names[f]] = std::move(fields[f]);
 }
 
 void SmoothedFlow::add(const MaterialPiece& piece) {
@@ -75,16 +72,18 @@ void SmoothedFlow::add(const MaterialPiece& piece) {
 
 Frame SmoothedFlow::frame(double nu_bulk) const {
   Frame frame;
-  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+  const auto flow_at = [&](std::size_t n) -> NodeFlow {
     const auto& [carried, stress] = nodes_[n];
     const double nu = carried.value[0], v_x = carried.mean(1), v_z = carried.mean(2);
-    const PlaneMatrix gradient{carried.slope(1, carried.slope_x), carried.slope(1, carried.slope_z),
-                               carried.slope(2, carried.slope_x), carried.slope(2, carried.slope_z)};
-    const PlaneMatrix pressure{stress.xx - nu * v_x * v_x, stress.xz - nu * v_x * v_z,
-                               stress.zx - nu * v_x * v_z, stress.zz - nu * v_z * v_z};
-    set_fields(n, grid_, {nu, v_x, v_z, gradient, pressure}, frame);
-  }
-  frame.height = surface_heights(grid_, frame.fields.at("nu"), nu_bulk / 2);
+    return {nu,
+            v_x,
+            v_z,
+            {carried.slope(1, carried.slope_x), carried.slope(1, carried.slope_z),
+             carried.slope(2, carried.slope_x), carried.slope(2, carried.slope_z)},
+            {stress.xx - nu * v_x * v_x, stress.xz - nu * v_x * v_z, stress.zx - nu * v_x * v_z,
+             stress.zz - nu * v_z * v_z}};
+  };
+  set_fields(grid_, nu_bulk, flow_at, frame);
   frame.mass_height.assign(grid_.columns, no_value);
   return frame;
 }

@@ -2,6 +2,8 @@
 // Frames: fields, surface and loads of a flow at given times, on one grid, of one run or of several side by
 // side (docs/formats/frames.md).
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -43,8 +45,10 @@ struct NodeFlow {
   double nu = 0, v_x = 0, v_z = 0;
   PlaneMatrix gradient, pressure;
 };
-/// Sets the fields of one node, made on the way: nu alone where it is less than least_map_nu.
-void set_fields(std::size_t node, const MapGrid& grid, const NodeFlow& flow, Frame& frame);
+/// Sets fields and height of a frame by what there is at each node: nu alone where it is less than
+/// least_map_nu, and the height at half of nu_bulk.
+void set_fields(const MapGrid& grid, double nu_bulk, const std::function<NodeFlow(std::size_t node)>& flow_at,
+                Frame& frame);
 
 /// A piece of a continuum: a point of its quadrature.
 struct MaterialPiece {
