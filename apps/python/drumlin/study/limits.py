@@ -23,17 +23,20 @@ def _positive(value):
     return isinstance(value, (int, float)) and value > 0
 
 
-def read_limits(path):
-    """A file of limits (drumlin-limits-1); InputError, all faults at once, where it holds others than docs/formats/comparison-study.md lists."""
+def read_limits(path, places=None, keys=None):
+    """A file of limits (drumlin-limits-1); InputError, all faults at once, where it holds others than docs/formats/comparison-study.md lists, or
+    `places` and more `keys`, {name: (words, test)}; beside these a limit may go without an aim."""
+    places, keys = places or PLACES, keys or {}
     content = read_toml(path, "drumlin-limits-1")
     starts = [line for line, text in enumerate(pathlib.Path(path).read_text(encoding="utf-8").splitlines(), 1) if text.strip().startswith("[[limits]]")]
     problems = [(str(path), key, "is not known here", "format, floor_factor, limits") for key in set(content) - {"format", "floor_factor", "limits"}]
     for i, (start, limit) in enumerate(zip(starts, content.get("limits", []))):
-        zones, measures = PLACES.get(limit.get("where"), ((), ()))
-        allowed = {"quantity": ("a name", lambda value: isinstance(value, str) and value != ""), "where": (", ".join(PLACES), PLACES.__contains__),
+        zones, measures = places.get(limit.get("where"), ((), ()))
+        allowed = {"quantity": ("a name", lambda value: isinstance(value, str) and value != ""), "where": (", ".join(places), places.__contains__),
                    "zone": (", ".join(zones) or "none", zones.__contains__), "measure": (", ".join(measures), measures.__contains__),
-                   "must": ("above 0", _positive), "aim": ("above 0", _positive), "must_worst": ("above 0", _positive)}
-        for key, value in ({key: None for key in ("quantity", "where", "measure", "must", "aim")} | {"zone": ""} | limit).items():
+                   "must": ("above 0", _positive), "aim": ("above 0", _positive), "must_worst": ("above 0", _positive)} | keys
+        needed = ("quantity", "where", "measure", "must", *(keys or ["aim"]))
+        for key, value in (dict.fromkeys(needed) | {"zone": ""} | limit).items():
             words, holds = allowed.get(key, (", ".join(allowed), lambda _: False))
             if not holds(value):
                 problems.append((f"{path}:{start}", f"limits.{i}.{key}", "is missing" if value is None else f"is {value!r}", words))

@@ -1,0 +1,1 @@
+"""Particles and continuum of one scene beside each other, over time (docs/formats/pair.md)."""
