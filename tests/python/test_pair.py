@@ -22,7 +22,7 @@ def spread(t, run=0.0):
     return np.maximum(0, 400 / width * (1 - X / width)) * (1 + run)
 
 
-def side(file, runs=1, noise=0.0, faster=1.0, more=None):
+def side(file, runs=1, noise=0.0, faster=1.0, more=None, drift=False):
     """A file of frames of heaps that spread: v_x over x and t, a hydrostatic pressure; run k differs by `noise` times its number from the middle."""
     shift = noise * (np.arange(runs) - (runs - 1) / 2)
     h = np.array([[spread(t, one) for t in TIMES] for one in shift])
@@ -33,7 +33,7 @@ def side(file, runs=1, noise=0.0, faster=1.0, more=None):
     fields = {"nu": NU * full, "v_x": faster * moving * (1 + X / 60) * (1 + shift[:, None, None, None]) * full, "v_z": 0 * full, "sigma_xx": p, "sigma_zz": p,
               "sigma_xz": 0.3 * p, "I": 0.1 * moving * full, "mu": 0.3 * full, "p": p}
     area = 200 * (1 + shift[:, None]) * np.ones(len(TIMES))
-    scalars = {"area": area, "centre_x": (h * X).sum(axis=-1) / h.sum(axis=-1), "centre_z": (h**2).sum(axis=-1) / h.sum(axis=-1) / 2,
+    scalars = {"area": area, "centre_x": (h * X).sum(axis=-1) / h.sum(axis=-1) * (1 + drift * shift[:, None]), "centre_z": (h**2).sum(axis=-1) / h.sum(axis=-1) / 2,
                "kinetic_energy": area * faster**2 * moving[:, :, 0, 0], "discharged": 0 * area, "discharge_rate": 0 * area}
     write_hdf5(file, {"format": "drumlin-frames-1", "names": "\n".join(fields), "header": f"nu_bulk = {NU}\ntitle = heap",
                       "scales/length_m": 2e-3, "scales/time_s": 0.0143, "scales/density_kg_m3": 2700.0, "runs": "\n".join(f"run-{k}" for k in range(runs)),
@@ -114,6 +114,37 @@ def test_published_heights_are_met_by_themselves(tmp_path):
     table = [{"time": str(t / math.sqrt(20)), "x": x / 20, "h": spread(t)[x] / 20} for t in (2, 5, 8) for x in (0, 10, 20, 30)]
     row = judgement.against_heights(judgement.read_pair_limits(LIMITS), "lagree-column", read, table)
     assert row["value"] < 1e-12 and row["must_outcome"] == "met"
+
+
+def test_a_silo_is_judged_in_its_steady_part(tmp_path):
+    scene = tmp_path / "flow.toml"
+    scene.write_text('format = "drumlin-flow-scene-1"\n[[walls]]\nname = "floor"\nfrom_mm = [0, 0]\nto_mm = [16, 0]\n'
+                     '[[openings]]\nname = "slot"\nfrom_mm = [16, 0]\nto_mm = [28, 0]\n')
+
+    def silo(name, factor):
+        v_z = np.full((1, len(TIMES), len(Z), len(X)), -1.0 * factor)
+        return side(tmp_path / name, more={"scalars/discharged": [20 * factor * TIMES], "fields/v_z": v_z})
+    content = comparison.compare(silo("a.h5", 1.0), silo("b.h5", 1.2), tmp_path / "out", "silo", LIMITS, scene, figures=False)
+    assert (content["slot_width"], content["rate"]["particles"], content["rate"]["continuum"]) == pytest.approx((6, 20, 24))
+    assert content["rate"]["steady"]["particles"] == pytest.approx([1, 5])
+    assert of(content["rows"], "v_z")["value"] == pytest.approx(0.2)
+    # The heap sinks: over the continuum's shorter steady part, 0.83 to 4.2, it is the higher one.
+    assert 0 < of(content["rows"], "floor")["value"] < 0.1 and of(content["rows"], "left")["must_outcome"] == "not_measured"
+
+
+def test_one_run_has_no_noise_floor(tmp_path):
+    content = comparison.compare(side(tmp_path / "a.h5"), side(tmp_path / "b.h5"), tmp_path / "out", "drum-start", LIMITS, figures=False)
+    assert content["heights"]["rms"]["floor"] is None
+    assert of(content["rows"], "slope_deg")["must_outcome"] == "not_measured"
+
+
+def test_a_continuum_inside_the_interval_is_told_as_a_share_of_the_times(tmp_path):
+    later = 1 + 0.3 * (TIMES > 4)
+    other = {"scalars/centre_x": [later * (lambda h: (h * X).sum(axis=-1) / h.sum(axis=-1))(np.array([spread(t) for t in TIMES]))]}
+    content = comparison.compare(side(tmp_path / "a.h5", 6, 0.01, drift=True), side(tmp_path / "b.h5", more=other), tmp_path / "out", "drum-start", LIMITS,
+                                 figures=False)
+    row = of(content["rows"], "centre_x")
+    assert row["value"] == pytest.approx(5 / 9) and row["must_outcome"] == "missed"
 
 
 def test_stress_inside_a_wall_is_normal_to_it(tmp_path):
