@@ -40,8 +40,8 @@ def _mean(values):
 
 
 def floor_height(*sides):
-    """Over x: the lowest node at which any side ever has material; NaN where none has."""
-    there = np.any([np.isfinite(frames.fields["nu"]).any(axis=(0, 1)) for frames in sides], axis=0)
+    """Over x: the lowest node at which nu of any side is ever half of nu_bulk; NaN where it never is."""
+    there = np.any([(frames.fields["nu"] >= float(frames.header["nu_bulk"]) / 2).any(axis=(0, 1)) for frames in sides], axis=0)
     return np.where(there.any(axis=0), sides[0].z[there.argmax(axis=0)], np.nan)
 
 
