@@ -10,6 +10,7 @@
 #include "apps/json/json_file.hpp"
 #include "apps/output/figures.hpp"
 #include "apps/output/output_folder.hpp"
+#include "apps/process/asked.hpp"
 #include "apps/process/interruption.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "continuum/fem/scene_options.hpp"
@@ -43,16 +44,19 @@ struct RegionRequest {
 
 std::string frame_file(std::size_t number) { return fmt::format("frames/{:04}.h5", number); }
 
-RegionRequest region_request(const FlowOptions& options, const continuum::FlowScene& scene) {
-  RegionRequest asked{scene, read_rheology(options.rheology), {}, {}, {}, {}, scales_of(scene)};
+RegionRequest region_request(const FlowOptions& options) {
+  RegionRequest asked;
+  asked.scene = continuum::read_flow_scene(options.scene, options.overrides);
+  asked.law = read_rheology(options.rheology);
+  asked.scales = scales_of(asked.scene);
   const auto refuse = [&](const char* key, const char* what) {
     throw InputError({InputProblem{
         .file = options.scene.string(), .key = key, .what = what, .allowed = "absent for a region"}});
   };
   if (options.from) refuse("--from", "starts no flow of a region, which starts from its fill");
   if (options.law_draws > 0) refuse("--law-draws", "knows no flow of a region");
-  asked.flow = continuum::region_flow(scene, asked.law);
-  asked.scene_text = continuum::flow_scene_text(scene);
+  asked.flow = continuum::region_flow(asked.scene, asked.law);
+  asked.scene_text = continuum::flow_scene_text(asked.scene);
   asked.law_text = file_text(options.rheology);
   asked.sum = requested_sum(described(options), {asked.scene_text});
   return asked;
@@ -138,7 +142,7 @@ class RegionRun {
   continuum::RegionMarch march_;
   continuum::FrameRequest request_;
   std::vector<double> times_;
-  FlowSolverOptions options_;
+  continuum::FlowSolverOptions options_;
   KeptRegion kept_;
   std::vector<Frame> frames_;
   int cells_ = 0;
@@ -173,7 +177,7 @@ Frames frames_of(const RegionRequest& asked, const RegionRun& run) {
   frames.header.reduced = asked.scene.reduced || asked.law.reduced;
   frames.header.revision = provenance().revision;
   frames.header.diameter_m = asked.scales.length_m;
-  frames.header.further["kernel_width"] = fmt::format("{}", run.request().kernel_width);
+  frames.header.kernel_width = run.request().kernel_width;
   frames.scales = asked.scales;
   frames.nu_bulk = asked.flow.nu;
   frames.runs = {"continuum"};
@@ -253,10 +257,10 @@ std::string finished_region_text(const fs::path& folder, const Json& content) {
 
 }  // namespace
 
-int solve_region_scene(const FlowOptions& options, const continuum::FlowScene& scene,
-                       const continuum::FemRuntime& runtime) {
+int solve_region_scene(const FlowOptions& options, const continuum::FemRuntime& runtime) {
   if (runtime.ranks() > 1) throw InputError("a flow of a region runs on one rank");
-  const RegionRequest asked = region_request(options, scene);
+  const RegionRequest asked = region_request(options);
+  const continuum::FlowScene& scene = asked.scene;
   const fs::path& folder = options.output;
   if (options.existing == ExistingOutput::resume && holds_results(folder, result_file)) {
     refuse_other(folder, asked.sum);

@@ -8,7 +8,6 @@ namespace drumlin::apps {
 
 /// Solves a scene whose geometry is a region and writes its results; the exit code. Throws InputError,
 /// IoError, NotConvergedError.
-int solve_region_scene(const FlowOptions& options, const continuum::FlowScene& scene,
-                       const continuum::FemRuntime& runtime);
+int solve_region_scene(const FlowOptions& options, const continuum::FemRuntime& runtime);
 
 }  // namespace drumlin::apps

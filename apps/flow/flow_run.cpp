@@ -12,6 +12,7 @@
 
 #include "apps/flow/flow_files.hpp"
 #include "apps/flow/flow_marching.hpp"
+#include "apps/flow/flow_region.hpp"
 #include "apps/flow/flow_text.hpp"
 #include "apps/output/output_folder.hpp"
 #include "apps/process/asked.hpp"
@@ -307,9 +308,17 @@ void require_met(const fs::path& folder, const std::vector<std::string>& missed)
 
 int solve_flow_scene(const FlowOptions& options, const continuum::FemRuntime& runtime) {
   const bool speaks = runtime.rank() == 0;
+  const auto say = [](const std::string& what) { print_error(what + "\n"); };
+  bool is_region = false;
+  runtime.on_all_ranks(
+      [&] {
+        is_region = std::holds_alternative<continuum::FlowRegion>(
+            continuum::read_flow_scene(options.scene, options.overrides).geometry);
+      },
+      say);
+  if (is_region) return solve_region_scene(options, runtime);
   FlowRequest asked;
   // One of several machines may not see a file, or see another one.
-  const auto say = [](const std::string& what) { print_error(what + "\n"); };
   runtime.on_all_ranks([&] { asked = read_request(options); }, say);
   asked.sum = requested_sum(described(options), {continuum::flow_scene_text(asked.scene)});
   runtime.require_same(asked.sum + options.output.string() + version_text(),

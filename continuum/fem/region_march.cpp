@@ -14,7 +14,6 @@
 #include "continuum/fem/detail/time_step.hpp"
 #include "continuum/model/mesh_motion.hpp"
 #include "continuum/model/outline.hpp"
-#include "continuum/model/outline_stub.hpp"
 #include "continuum/model/part_line.hpp"
 #include "continuum/model/region_mesh.hpp"
 #include "coupling/core/basics/errors.hpp"

@@ -238,9 +238,6 @@ void refuse_keys_of_the_drum(const Document& document, const FlowScene& scene,
 void check_scene_of_region(const Document& document, FlowScene& scene, std::vector<InputProblem>& problems) {
   const auto& region = std::get<FlowRegion>(scene.geometry);
   check_region(document, region, problems);
-  if (scene.solver.sensitivity)
-    problems.push_back(
-        problem_at(document, "solver.sensitivity", "is one of the steady flow", "absent with [region]"));
   if (!scene.gravity.direction_deg) scene.gravity.direction_deg = -90;
 }
 

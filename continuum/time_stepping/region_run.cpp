@@ -16,7 +16,9 @@ double distance(Vec2 a, Vec2 b) { return std::hypot(a.x - b.x, a.z - b.z); }
 }  // namespace
 
 RegionMarch region_march(const RegionFlow& flow, double coarsening) {
-  RegionMarch march{.region = flow.region, .problem = {}, .size = {}, .step = coarsening * flow.step};
+  RegionMarch march;
+  march.region = flow.region;
+  march.step = coarsening * flow.step;
   march.problem.law = flow.law;
   march.problem.density = flow.nu;
   march.problem.regularisation = flow.regularisation;
