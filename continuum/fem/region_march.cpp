@@ -16,6 +16,7 @@
 #include "continuum/model/outline.hpp"
 #include "continuum/model/part_line.hpp"
 #include "continuum/model/region_mesh.hpp"
+#include "continuum/model/touch_down.hpp"
 #include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::continuum {
@@ -383,7 +384,9 @@ class FreeFlow {
 
   void remesh_where_needed() {
     const Outline now = outline_of(state_.mesh);
-    const Outline laid = laid_down(now, plan_.region, state_.time, plan_.size);
+    const auto [laid, passed] = laid_down(now, plan_.region, state_.time, plan_.size);
+    state_.discharged += passed;
+    state_.area -= passed;
     if (laid.points.size() == now.points.size() && state_.steps_on_mesh < most_steps_on_a_mesh &&
         quality(state_.mesh) > poorest_quality)
       return;

@@ -29,6 +29,7 @@ bool sides_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
 
 constexpr double on_line = 1e-6;                 // of the length of a side
 constexpr double longest = 1.5, shortest = 0.5;  // free sides, in sizes
+constexpr double at_corner = 0.1;                // sizes
 
 struct Stretch {  // of a side, in shares of it
   double begins, ends;
@@ -149,13 +150,21 @@ int wall_of_contact(const Outline& outline, std::size_t i) {
   return (before == Outline::free) == (after == Outline::free) ? Outline::free : std::max(before, after);
 }
 
-Outline with_contacts_on_walls(Outline outline, const Region& region, double time) {
-  for (std::size_t i = 0; i < outline.points.size(); ++i)
-    if (const int part = wall_of_contact(outline, i); part != Outline::free) {
-      const PartLine line = line_of(region.parts[part], time);
-      const double s = line.nearest(outline.points[i]);
-      outline.points[i] = line.at(std::clamp(s, 0.0, line.length));
-    }
+// Contacts closer to a corner of the walls than a tenth of the size go there.
+Outline with_contacts_at_corners(Outline outline, const SizeField& size) {
+  auto& [points, part] = outline;
+  for (std::size_t i = points.size(); i-- > 0 && points.size() > 3;) {
+    const std::size_t n = points.size();
+    const bool free_after = part[i] == Outline::free;
+    const std::size_t corner = (free_after ? i + n - 1 : i + 1) % n,
+                      beyond = free_after ? (i + n - 2) % n : corner;
+    const int wall = wall_of_contact(outline, i);
+    if (wall == Outline::free || part[beyond] == Outline::free || part[beyond] == wall) continue;
+    if (length(points[corner] - points[i]) > at_corner * size(points[i])) continue;
+    if (free_after) part[corner] = Outline::free;
+    points.erase(points.begin() + static_cast<std::ptrdiff_t>(i));
+    part.erase(part.begin() + static_cast<std::ptrdiff_t>(i));
+  }
   return outline;
 }
 
@@ -234,7 +243,7 @@ Outline relabelled(const Outline& outline, const Region& region, double time) {
 }
 
 Outline resampled(const Outline& old, const Region& region, double time, const SizeField& size) {
-  const Outline outline = with_contacts_on_walls(old, region, time);
+  const Outline outline = with_contacts_at_corners(with_contacts_on_walls(old, region, time), size);
   const std::size_t n = outline.points.size();
   const auto starts = chain_starts(outline);
   Outline fresh;
@@ -255,6 +264,16 @@ Outline resampled(const Outline& old, const Region& region, double time, const S
     }
   }
   return fresh;
+}
+
+Outline with_contacts_on_walls(Outline outline, const Region& region, double time) {
+  for (std::size_t i = 0; i < outline.points.size(); ++i)
+    if (const int part = wall_of_contact(outline, i); part != Outline::free) {
+      const PartLine line = line_of(region.parts[part], time);
+      const double s = line.nearest(outline.points[i]);
+      outline.points[i] = line.at(std::clamp(s, 0.0, line.length));
+    }
+  return outline;
 }
 
 Outline with_area(const Outline& outline, const Region& region, double time, double target) {

@@ -20,9 +20,13 @@ Outline outline_of(const Region& region, double time, const SizeField& size);
 /// the order of the parts. What lies on none, or on one that is gone, is free.
 Outline relabelled(const Outline& outline, const Region& region, double time);
 
-/// Sides on parts divided anew evenly, their contacts put on the part. Free sides longer than 1.5 size halved
-/// by cubic interpolation, points less than half a size from the one before left out; contacts stay.
+/// Sides on parts divided anew evenly, their contacts put on the part, or at its corner with the next one if
+/// that is within a tenth of the size. Free sides longer than 1.5 size halved by cubic interpolation, points
+/// less than half a size from the one before left out; contacts stay.
 Outline resampled(const Outline& outline, const Region& region, double time, const SizeField& size);
+
+/// Contacts, where a free side and a part meet, put on the nearest point of their part.
+Outline with_contacts_on_walls(Outline outline, const Region& region, double time);
 
 /// Positive: anticlockwise.
 double area(const Outline& outline);

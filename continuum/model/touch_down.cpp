@@ -1,0 +1,220 @@
+#include "continuum/model/touch_down.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "continuum/model/plane_vector.hpp"
+#include "continuum/model/wall_path.hpp"
+#include "coupling/core/basics/errors.hpp"
+
+namespace drumlin::continuum {
+namespace {
+
+constexpr double film = 0.02, touching = 0.01, near_wall = 0.1, deepest = 2;  // heights above a wall in sizes
+constexpr double largest_bubble = 16;                                         // size^2
+
+// The outline seen from a contact: it is point 0, the sides from there on are free, those before it on a
+// part.
+struct Front {
+  std::vector<Vec2> points;
+  std::vector<int> part;
+  double hand = 1;  // the material lies on the left, or, turned round, on the right
+  double size = 0;
+  std::size_t free_sides = 0;
+  std::vector<PathPiece> path = {};  // of the wall that goes on
+};
+
+// All fronts, each contact once.
+std::vector<Front> fronts_of(const Outline& outline, const Region& region, double time,
+                             const SizeField& size) {
+  std::vector<Front> fronts;
+  const std::size_t n = outline.points.size();
+  const auto is_free = [&](std::size_t side) { return outline.part[side % n] == Outline::free; };
+  std::vector<Vec2> contacts;
+  for (std::size_t i = 0; i < n; ++i)
+    if (is_free(i) != is_free(i + n - 1)) contacts.push_back(outline.points[i]);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (is_free(i) == is_free(i + n - 1)) continue;
+    Front front{{}, {}, is_free(i) ? 1.0 : -1.0, size(outline.points[i])};
+    for (std::size_t j = 0; j < n; ++j) {
+      front.points.push_back(outline.points[(is_free(i) ? i + j : i + n - j) % n]);
+      front.part.push_back(outline.part[(is_free(i) ? i + j : i + 2 * n - j - 1) % n]);
+    }
+    while (front.part[front.free_sides] == Outline::free) ++front.free_sides;
+    const PartLine line = line_of(region.parts[front.part.back()], time);
+    const Vec2 contact = front.points[0], before = front.points.back();
+    const double sense = line.round() ? front.hand : dot(line.along, contact - before) < 0 ? -1 : 1;
+    std::vector<Vec2> stops;
+    for (const Vec2 other : contacts)
+      if (length(other - contact) > 0) stops.push_back(other);
+    front.path = path_from(region, time, front.part.back(), contact, sense, front.hand, stops);
+    fronts.push_back(std::move(front));
+  }
+  return fronts;
+}
+
+// Anticlockwise again.
+Outline outline_from(const Front& front) {
+  Outline outline{front.points, front.part};
+  if (front.hand < 0) {
+    std::ranges::reverse(outline.points);
+    std::ranges::reverse(outline.part);
+    std::ranges::rotate(outline.part, outline.part.begin() + 1);
+  }
+  return outline;
+}
+
+// The contact `along` the piece of the path, the free points before `kept` left out.
+Front landed(const Front& front, std::size_t kept, std::size_t piece, double along) {
+  Front next = front;
+  const auto from = static_cast<std::ptrdiff_t>(kept);
+  const Vec2 contact = front.path[piece].at(along);
+  next.points.assign({contact});
+  next.part.assign({Outline::free});
+  next.points.insert(next.points.end(), front.points.begin() + from, front.points.end());
+  next.part.insert(next.part.end(), front.part.begin() + from, front.part.end());
+  const auto add = [&](Vec2 point, int part) { next.points.push_back(point), next.part.push_back(part); };
+  for (std::size_t k = 0; k <= piece; ++k) {
+    const PathPiece& way = front.path[k];
+    const double end = k == piece ? along : way.length();
+    const double steps = way.line.round() ? std::ceil(end / front.size) : end > 0 ? 1 : 0;
+    for (double i = 0; i < steps; ++i)
+      add(i > 0 || k > 0 ? way.at(i / steps * end) : front.points[0], way.part);
+  }
+  return next;
+}
+
+// Back along the wet wall if the first free point has all but come down to it.
+std::optional<Front> slid_back(const Front& front) {
+  const auto& p = front.points;
+  if (front.free_sides < 2) return {};
+  const double reach = 2 * length(p[1] - p[0]);
+  double way = 0;
+  for (std::size_t j = p.size() - 1; way < reach && front.part[j] != Outline::free; --j) {
+    const Vec2 a = p[j], side = p[(j + 1) % p.size()] - a, along = (1 / length(side)) * side;
+    const double s = dot(along, p[1] - a), height = front.hand * cross(along, p[1] - a);
+    way += length(side);
+    if (s < 0 || s >= length(side) || height > film * front.size || height < -deepest * front.size) continue;
+    // Where the triangle of the contact and the first two free points has the same area.
+    const double second = front.hand * cross(along, p[2] - a);
+    double place = s;
+    if (second > near_wall * front.size && j + 1 == p.size())
+      place =
+          std::clamp(length(side) + front.hand * cross(p[1] - p[0], p[2] - p[0]) / second, s, length(side));
+    Front next = front;
+    const auto end = static_cast<std::ptrdiff_t>(place > 0 ? j + 1 : j);
+    next.points.assign({a + place * along});
+    next.part.assign({Outline::free});
+    next.points.insert(next.points.end(), p.begin() + 2, p.begin() + end);
+    next.part.insert(next.part.end(), front.part.begin() + 2, front.part.begin() + end);
+    return next;
+  }
+  return {};
+}
+
+// On along the dry wall, so far that the area stays.
+std::optional<Front> rolled_over(const Front& front, const Region& region, double time, double angle) {
+  const auto& p = front.points;
+  if (front.free_sides < 2 || front.path.empty() || is_open(region.parts[front.path[0].part], time))
+    return {};
+  const Vec2 side = p[1] - p[0], ahead = front.path[0].direction(0);
+  if (std::atan2(front.hand * cross(ahead, side), dot(ahead, side)) >= angle) return {};
+  double rest = front.hand * cross(side, p[2] - p[0]);
+  const double farthest = length(side) + length(p[2] - p[1]);
+  for (std::size_t k = 0;; ++k) {
+    const PathPiece& piece = front.path[k];
+    const Vec2 from = piece.at(0), to = piece.at(piece.length());
+    const double second = front.hand * cross(piece.direction(0), p[2] - from);
+    const double way = second > near_wall * front.size ? rest / second : dot(piece.direction(0), p[1] - from);
+    const bool last = k + 1 == front.path.size() || is_open(region.parts[front.path[k + 1].part], time);
+    if (way <= piece.length() || last)
+      return landed(front, 2, k, std::clamp(way, 0.0, std::min(piece.length(), farthest)));
+    rest -= front.hand * cross(to - from, p[2] - from);
+  }
+}
+
+struct Touch {
+  Front front;
+  double air = 0;  // closed in, less what is cut off
+  bool passed = false;
+};
+
+double area_between(const Front& before, const Front& after) {
+  return area(outline_from(after)) - area(outline_from(before));
+}
+
+// The last free point that has come to the wall that goes on, or has passed an opening.
+std::optional<Touch> touched(const Front& front, const Region& region, double time) {
+  for (std::size_t k = front.free_sides - 1; k >= 1; --k)
+    for (std::size_t i = 0; i < front.path.size(); ++i) {
+      const PathPiece& piece = front.path[i];
+      const bool open = is_open(region.parts[piece.part], time);
+      const Vec2 point = front.points[k];
+      double s = piece.sense() * (piece.line.nearest(point) - piece.from);
+      if (piece.line.round() && s < 0) s += piece.line.length;
+      const auto height_of = [&](Vec2 q) { return front.hand * cross(piece.direction(s), q - piece.at(s)); };
+      const double height = height_of(point);
+      if (s < 0 || s > piece.length() || height < -deepest * front.size) continue;
+      if (height >= (open ? 0 : touching * front.size)) continue;
+      if (open) {  // where the next side comes back through it
+        const Vec2 step = front.points[k + 1] - point;
+        const double rise = height_of(front.points[k + 1]) - height;
+        if (rise > 0) s += std::min(1.0, -height / rise) * dot(piece.direction(s), step);
+      }
+      const Front next = landed(front, k + 1, i, std::clamp(s, 0.0, piece.length()));
+      return Touch{next, area_between(front, next), open};
+    }
+  return {};
+}
+
+// One change of one front; what has come to a wall far from its contacts is told by `far`.
+std::optional<Outline> one_step(const std::vector<Front>& fronts, const Region& region, double time,
+                                double angle, double& passed, std::optional<Vec2>& far) {
+  for (const Front& front : fronts) {
+    const auto touch = touched(front, region, time);
+    if (touch && touch->passed) {
+      passed -= touch->air;
+      return outline_from(touch->front);
+    }
+    if (const auto next = slid_back(front)) return outline_from(*next);
+    if (const auto next = rolled_over(front, region, time, angle)) return outline_from(*next);
+    if (!touch) continue;
+    if (touch->air < largest_bubble * front.size * front.size) return outline_from(touch->front);
+    far = touch->front.points[0];
+  }
+  return {};
+}
+
+}  // namespace
+
+LaidDown laid_down(const Outline& outline, const Region& region, double time, const SizeField& size,
+                   double angle_deg) {
+  LaidDown laid{with_contacts_on_walls(outline, region, time)};
+  const double angle = angle_deg * std::numbers::pi / 180;
+  // Each step takes at least one free point away.
+  for (;;) {
+    std::optional<Vec2> far;
+    const auto next =
+        one_step(fronts_of(laid.outline, region, time, size), region, time, angle, laid.passed, far);
+    if (!next) {
+      if (far)
+        throw NotConvergedError(
+            fmt::format("the material has come to a wall at ({:g}, {:g}), far from its contacts: surfaces "
+                        "that merge are not "
+                        "followed",
+                        far->x, far->z));
+      break;
+    }
+    laid.outline = *next;
+  }
+  if (const auto where = crosses_itself(laid.outline))
+    throw NotConvergedError(
+        fmt::format("the outline of the material crosses itself at ({:g}, {:g}): surfaces that break or "
+                    "merge are not followed",
+                    where->x, where->z));
+  return laid;
+}
+
+}  // namespace drumlin::continuum
