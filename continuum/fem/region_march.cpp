@@ -29,8 +29,8 @@ using fem::SplitTriangles;
 using fem::Work;
 
 constexpr double cells_in_a_step = 0.4;  // that the fastest material passes
-constexpr int most_steps_on_a_mesh = 10;
-constexpr double poorest_quality = 0.15;
+constexpr int most_steps_on_a_mesh = 20;
+constexpr double poorest_quality = 0.2;
 
 std::map<Side, BoundaryCondition> sides_of(const Region& region, double time) {
   std::map<Side, BoundaryCondition> sides;
@@ -301,6 +301,7 @@ class FreeFlow {
     }
     state_.mesh.vertices = std::move(to);
     state_.kinetic_energy = now_.sums.kinetic_energy;
+    state_.power = power_;
     return true;
   }
 
@@ -308,8 +309,8 @@ class FreeFlow {
   void look(double dt) {
     now_.sums = FlowField(level_).integrals();
     const auto& s = now_.sums;
-    now_.energy_error = dt * (s.weight_power + s.given_side_power - s.dissipation - outflow_energy_) -
-                        (s.kinetic_energy - state_.kinetic_energy);
+    power_ = s.weight_power + s.given_side_power - s.dissipation - outflow_energy_;
+    now_.energy_error = 0.5 * dt * (state_.power + power_) - (s.kinetic_energy - state_.kinetic_energy);
     now_.loads = loads();
   }
 
@@ -519,6 +520,7 @@ class FreeFlow {
   RegionStep now_;
   // Area and kinetic energy per time, of the last look at the material's motion.
   double outflow_ = 0, outflow_energy_ = 0;
+  double power_ = 0;  // of the weight and the walls, less what is lost to the law and carried out
 };
 
 }  // namespace

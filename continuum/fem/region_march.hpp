@@ -40,6 +40,7 @@ struct RegionState {
   double area = 0;        ///< that the material has to have
   double discharged = 0;  ///< area that has left
   double kinetic_energy = 0;
+  double power = 0;  ///< that it grows by: of weight and walls, less what is lost and carried out
   RegionTotals totals = {};
   std::vector<double> values = {};  ///< of the unknowns, in deal.II's order on this mesh
 };
@@ -57,8 +58,8 @@ struct RegionStep {
   double fastest = 0;       ///< largest speed of a corner
   FlowIntegrals sums;       ///< on the mesh at the middle of the step
   std::vector<Vec2> loads;  ///< force of the material on each part of the region
-  /// Work of the weight and of the walls over the step, less what was lost to the law and to friction, gained
-  /// as kinetic energy or carried out: nought but for the error of the step.
+  /// Work of the weight and of the walls over the step (trapezoidal rule), less what was lost to the law and
+  /// to friction, gained as kinetic energy or carried out: nought but for the error of the step.
   double energy_error = 0;
   int cells = 0;
   bool remeshed = false;

@@ -16,9 +16,9 @@ template <class Kept, class Visit>
 void each_number(Kept& kept, Visit visit) {
   auto& [state, step, scene, law] = kept;
   auto& totals = state.totals;
-  for (auto* number : {&state.time, &state.area, &state.discharged, &state.kinetic_energy, &totals.fill,
-                       &totals.weight_work, &totals.energy_error, &totals.mass_error, &totals.iterations,
-                       &step.time_step, &step.discharge_rate, &step.fastest})
+  for (auto* number : {&state.time, &state.area, &state.discharged, &state.kinetic_energy, &state.power,
+                       &totals.fill, &totals.weight_work, &totals.energy_error, &totals.mass_error,
+                       &totals.iterations, &step.time_step, &step.discharge_rate, &step.fastest})
     visit(*number);
 }
 
@@ -53,7 +53,8 @@ void write_region_state(const std::filesystem::path& file, const KeptRegion& kep
   out.add_number("steps_on_mesh", static_cast<std::int64_t>(kept.state.steps_on_mesh));
   out.add("numbers", numbers,
           {"d, sqrt(d/g), rho0 g d",
-           "time, area, discharged, kinetic energy; area of the fill, work of the weight, error of the "
+           "time, area, discharged, kinetic energy, its growth; area of the fill, work of the weight, error "
+           "of the "
            "energy, of "
            "the mass, iterations; of the last step: its length, rate of discharge, largest speed"});
   out.add_table("vertices", flat(mesh.vertices), 2, {"d", "x, z of the corners of the triangles"});
