@@ -16,6 +16,7 @@ namespace {
 
 constexpr int outside = -1;
 constexpr double triangle_rounding = 1e-10;
+constexpr double flat = 1e-8;  // height over length below which points lie on one line
 // Circumradius over size up to which a triangle is small enough: 0.58 in an equilateral one.
 constexpr double largest_radius = 0.72;
 constexpr double least_height = 0.3;  // of an inner point above a side of the outline, over its length
@@ -32,9 +33,12 @@ double roundness(Vec2 a, Vec2 b, Vec2 c) {
   return cross(b - a, c - a) / std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
 }
 
+// Or within a hair of it.
 bool holds(Vec2 a, Vec2 b, Vec2 c, Vec2 p) {
-  const double least = -triangle_rounding * cross(b - a, c - a);
-  return cross(b - a, p - a) >= least && cross(c - b, p - b) >= least && cross(a - c, p - c) >= least;
+  const auto inside = [p](Vec2 from, Vec2 to) {
+    return cross(to - from, p - from) >= -flat * dot(to - from, to - from);
+  };
+  return inside(a, b) && inside(b, c) && inside(c, a);
 }
 
 // A polygon of triangles: the best ear is cut off until one is left.
@@ -49,7 +53,7 @@ std::vector<Triangle> clipped_ears(const std::vector<Vec2>& points) {
     const auto e = ear(k);
     const Vec2 a = points[e[0]], b = points[e[1]], c = points[e[2]];
     const double value = roundness(a, b, c);
-    if (value < triangle_rounding) return 0.0;
+    if (value < flat) return 0.0;
     for (const int i : ring)
       if (i != e[0] && i != e[1] && i != e[2] && holds(a, b, c, points[i])) return 0.0;
     return value;

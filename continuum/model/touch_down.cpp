@@ -13,7 +13,9 @@ namespace drumlin::continuum {
 namespace {
 
 constexpr double film = 0.02, touching = 0.01, near_wall = 0.1, deepest = 2;  // heights above a wall in sizes
-constexpr double largest_bubble = 16;                                         // size^2
+constexpr double same_point = 1e-6;                                           // d
+constexpr double gap = 0.5;                                                   // size^2
+constexpr double largest_bubble = 16, largest_share = 0.05;                   // size^2, of the area
 
 // The outline seen from a contact: it is point 0, the sides from there on are free, those before it on a
 // part.
@@ -66,13 +68,17 @@ Outline outline_from(const Front& front) {
   return outline;
 }
 
-// The contact `along` the piece of the path, the free points before `kept` left out.
+// The contact `along` the piece of the path, the free points before `kept` left out; all of them if that is
+// where the surface ends.
 Front landed(const Front& front, std::size_t kept, std::size_t piece, double along) {
-  Front next = front;
-  const auto from = static_cast<std::ptrdiff_t>(kept);
+  Front next{{}, {}, front.hand};
   const Vec2 contact = front.path[piece].at(along);
-  next.points.assign({contact});
-  next.part.assign({Outline::free});
+  const bool closed = length(contact - front.points[front.free_sides]) < same_point;
+  if (closed)
+    kept = front.free_sides;
+  else
+    next.points.push_back(contact), next.part.push_back(Outline::free);
+  const auto from = static_cast<std::ptrdiff_t>(kept);
   next.points.insert(next.points.end(), front.points.begin() + from, front.points.end());
   next.part.insert(next.part.end(), front.part.begin() + from, front.part.end());
   const auto add = [&](Vec2 point, int part) { next.points.push_back(point), next.part.push_back(part); };
@@ -135,54 +141,92 @@ std::optional<Front> rolled_over(const Front& front, const Region& region, doubl
   }
 }
 
-struct Touch {
-  Front front;
-  double air = 0;  // closed in, less what is cut off
-  bool passed = false;
-};
-
 double area_between(const Front& before, const Front& after) {
   return area(outline_from(after)) - area(outline_from(before));
 }
 
-// The last free point that has come to the wall that goes on, or has passed an opening.
-std::optional<Touch> touched(const Front& front, const Region& region, double time) {
+struct Height {
+  double along, above;  // of a point, from the start of a piece and its line; the material's side is above
+};
+Height height_over(const PathPiece& piece, double hand, Vec2 point) {
+  double s = piece.sense() * (piece.line.nearest(point) - piece.from);
+  if (piece.line.round() && s < 0) s += piece.line.length;
+  return {s, hand * cross(piece.direction(s), point - piece.at(s))};
+}
+// Whether it lies below that height, over the piece and not far behind it.
+bool has_come_to(const PathPiece& piece, const Front& front, Vec2 point, double least) {
+  const Height height = height_over(piece, front.hand, point);
+  return height.along >= 0 && height.along <= piece.length() && height.above < least &&
+         height.above > -deepest * front.size;
+}
+
+// The last free point that has come to the wall that goes on takes the contact there.
+std::optional<Front> touched(const Front& front, const Region& region, double time) {
   for (std::size_t k = front.free_sides - 1; k >= 1; --k)
-    for (std::size_t i = 0; i < front.path.size(); ++i) {
-      const PathPiece& piece = front.path[i];
-      const bool open = is_open(region.parts[piece.part], time);
-      const Vec2 point = front.points[k];
-      double s = piece.sense() * (piece.line.nearest(point) - piece.from);
-      if (piece.line.round() && s < 0) s += piece.line.length;
-      const auto height_of = [&](Vec2 q) { return front.hand * cross(piece.direction(s), q - piece.at(s)); };
-      const double height = height_of(point);
-      if (s < 0 || s > piece.length() || height < -deepest * front.size) continue;
-      if (height >= (open ? 0 : touching * front.size)) continue;
-      if (open) {  // where the next side comes back through it
-        const Vec2 step = front.points[k + 1] - point;
-        const double rise = height_of(front.points[k + 1]) - height;
-        if (rise > 0) s += std::min(1.0, -height / rise) * dot(piece.direction(s), step);
-      }
-      const Front next = landed(front, k + 1, i, std::clamp(s, 0.0, piece.length()));
-      return Touch{next, area_between(front, next), open};
-    }
+    for (std::size_t i = 0; i < front.path.size(); ++i)
+      if (const PathPiece& piece = front.path[i];
+          !is_open(region.parts[piece.part], time) &&
+          has_come_to(piece, front, front.points[k], touching * front.size))
+        return landed(front, k + 1, i, height_over(piece, front.hand, front.points[k]).along);
   return {};
+}
+
+// The free points that have passed an opening at the end of the way; the opening is wet from where the
+// surface goes through it to where it comes back.
+std::optional<Front> cut_off(const Front& front, const Region& region, double time) {
+  const auto& p = front.points;
+  if (front.path.empty() || !is_open(region.parts[front.path.back().part], time)) return {};
+  const PathPiece& piece = front.path.back();
+  const auto passed = [&](std::size_t k) { return has_come_to(piece, front, p[k], 0); };
+  std::size_t last = front.free_sides - 1;
+  while (last > 0 && !passed(last)) --last;
+  if (last == 0) return {};
+  std::size_t first = last;
+  while (first > 1 && passed(first - 1)) --first;
+  const auto crossing = [&](std::size_t inside, std::size_t beyond) {
+    const double height = height_over(piece, front.hand, p[inside]).above;
+    const double depth = height_over(piece, front.hand, p[beyond]).above;
+    const Vec2 point = p[inside] + std::clamp(height / (height - depth), 0.0, 1.0) * (p[beyond] - p[inside]);
+    return piece.at(std::clamp(height_over(piece, front.hand, point).along, 0.0, piece.length()));
+  };
+  const Vec2 out = crossing(first - 1, first), back = crossing(last + 1, last);
+  Front next{{}, {}, front.hand};
+  const auto add = [&](Vec2 point, int part) { next.points.push_back(point), next.part.push_back(part); };
+  for (std::size_t j = 0; j < first; ++j) add(p[j], Outline::free);
+  if (length(out - p[first - 1]) > same_point) add(out, piece.part);
+  next.part.back() = piece.part;
+  if (length(back - p[last + 1]) > same_point) add(back, Outline::free);
+  for (std::size_t j = last + 1; j < p.size(); ++j) add(p[j], front.part[j]);
+  return next;
+}
+
+// Little air between the contacts of a surface.
+std::optional<Front> closed_up(const Front& front) {
+  if (front.path.empty()) return {};
+  const double end = front.path.back().length();
+  if (length(front.path.back().at(end) - front.points[front.free_sides]) > same_point) return {};
+  const Front next = landed(front, front.free_sides, front.path.size() - 1, end);
+  return area_between(front, next) < gap * front.size * front.size ? std::optional(next) : std::nullopt;
 }
 
 // One change of one front; what has come to a wall far from its contacts is told by `far`.
 std::optional<Outline> one_step(const std::vector<Front>& fronts, const Region& region, double time,
                                 double angle, double& passed, std::optional<Vec2>& far) {
-  for (const Front& front : fronts) {
-    const auto touch = touched(front, region, time);
-    if (touch && touch->passed) {
-      passed -= touch->air;
-      return outline_from(touch->front);
+  for (const Front& front : fronts)
+    if (const auto next = cut_off(front, region, time)) {
+      passed -= area_between(front, *next);
+      return outline_from(*next);
     }
+  for (const Front& front : fronts) {
+    if (const auto next = closed_up(front)) return outline_from(*next);
     if (const auto next = slid_back(front)) return outline_from(*next);
     if (const auto next = rolled_over(front, region, time, angle)) return outline_from(*next);
-    if (!touch) continue;
-    if (touch->air < largest_bubble * front.size * front.size) return outline_from(touch->front);
-    far = touch->front.points[0];
+    const auto next = touched(front, region, time);
+    if (!next) continue;
+    const double air = area_between(front, *next), whole = area(outline_from(front));
+    if (air < std::max(largest_bubble * front.size * front.size, largest_share * whole))
+      return outline_from(*next);
+    far = next->points[0];
   }
   return {};
 }

@@ -180,8 +180,34 @@ TEST(TouchDown, CutsOffWhatHasPassedAnOpening) {
   const LaidDown laid = laid_down(before, chute, 0, one);
   EXPECT_NEAR(contact_of(laid.outline, false).x, 13, 1e-12);
   EXPECT_NEAR(contact_of(laid.outline, false).z, 2, 1e-12);
-  EXPECT_NEAR(laid.passed, area(before) - area(laid.outline), 1e-12);
-  EXPECT_GT(laid.passed, 0);
+  EXPECT_NEAR(laid.passed, 0.5 * (0.4 * (1.5 - 4 / 9.0) + 0.2 * (2 - 0.8)), 1e-12);
+  EXPECT_NEAR(area(laid.outline), area(before) - laid.passed + 0.5 * 0.5 * 4 / 9,
+              1e-12);  // the corner is closed
+
+  // Above the corner first: air is left below.
+  const Region fall{chute.parts, {{0, 0}, {8, 0}, {9, 2}, {11, 3}, {13.2, 4}, {13.2, 5}, {11, 6}, {0, 7}}};
+  const LaidDown over = laid_down(fill_of(fall), fall, 0, one);
+  EXPECT_NEAR(over.passed, area(fill_of(fall)) - area(over.outline), 1e-12);
+  EXPECT_NEAR(over.passed, 0.2 * (1 + 0.2 / 2.2), 1e-12);
+  EXPECT_EQ(contact_of(over.outline, false).x, 8);
+}
+
+TEST(TouchDown, LetsAColumnSpreadIntoACorner) {
+  const Region region{{wall({0, 30}, {0, 0}), wall({0, 0}, {16, 0}), wall({16, 0}, {16, 30})},
+                      {{0, 0}, {10, 0}, {10, 10}, {0, 10}}};
+  Outline outline = outline_of(region, 0, one);
+  for (int step = 0; step < 60; ++step) {
+    const std::size_t n = outline.points.size();
+    for (std::size_t i = 0; i < n; ++i)
+      if (Vec2& p = outline.points[i];
+          outline.part[i] == Outline::free && outline.part[(i + n - 1) % n] == Outline::free)
+        p = p + 0.03 * Vec2{p.x * std::tanh(p.z) * (1 - p.x / 16.3), -p.z};
+    const LaidDown laid = laid_down(relabelled(outline, region, 0), region, 0, one);
+    outline = with_area(resampled(laid.outline, region, 0, one), region, 0, 100);
+    ASSERT_NEAR(area(outline), 100, 1e-10);
+    ASSERT_GT(quality(mesh_of(outline, one)), 0.05);
+  }
+  EXPECT_EQ(contact_of(outline, false).x, 16);
 }
 
 TEST(TouchDown, RefusesWhatBreaksOrMerges) {
