@@ -123,14 +123,34 @@ std::vector<Vec2> refined(std::vector<Vec2> chain, const SizeField& size) {
   return chain;
 }
 
-std::vector<Vec2> thinned(const std::vector<Vec2>& chain, const SizeField& size) {
-  std::vector<Vec2> kept = {chain[0]};
-  const auto near = [&](Vec2 a, Vec2 b) { return length(b - a) < shortest * size(b); };
-  for (std::size_t i = 1; i + 1 < chain.size(); ++i)
-    if (!near(kept.back(), chain[i])) kept.push_back(chain[i]);
-  while (kept.size() > 1 && near(kept.back(), chain.back())) kept.pop_back();
-  kept.push_back(chain.back());
-  return kept;
+// Points k and k + 1 become one near `place` that keeps the area.
+void merge(std::vector<Vec2>& chain, std::size_t k, Vec2 place, double size) {
+  const Vec2 a = chain[k - 1], chord = chain[k + 2] - a;
+  const double wanted = cross(chain[k] - a, chain[k + 1] - a) + cross(chain[k + 1] - a, chord);
+  const double miss = (wanted - cross(place - a, chord)) / dot(chord, chord);
+  const Vec2 shift = miss * Vec2{chord.z, -chord.x};
+  chain[k] = length(shift) < size ? place + shift : place;
+  chain.erase(chain.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+}
+
+// Points of a free chain with its ends, which stay: short sides shrunk to a point.
+std::vector<Vec2> thinned(std::vector<Vec2> chain, const SizeField& size) {
+  for (std::size_t i = 1; i + 1 < chain.size();) {
+    const double here = size(chain[i]);
+    const auto near = [&](std::size_t k) { return length(chain[k + 1] - chain[k]) < shortest * here; };
+    const bool is_last = i + 2 == chain.size();
+    if (!near(i - 1) && !(is_last && near(i))) {
+      ++i;
+    } else if (i > 1) {
+      merge(chain, i - 1, chain[i - 1], here);
+      if (is_last) --i;
+    } else if (!is_last) {
+      merge(chain, i, chain[i + 1], here);
+    } else {
+      chain.erase(chain.begin() + 1);
+    }
+  }
+  return chain;
 }
 
 // Points where the part changes; the first point if it does nowhere.

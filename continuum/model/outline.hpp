@@ -22,7 +22,7 @@ Outline relabelled(const Outline& outline, const Region& region, double time);
 
 /// Sides on parts divided anew evenly, their contacts put on the part, or at its corner with the next one if
 /// that is within a tenth of the size. Free sides longer than 1.5 size halved by cubic interpolation, points
-/// less than half a size from the one before left out; contacts stay.
+/// less than half a size from the one before merged with it, the area kept; contacts stay.
 Outline resampled(const Outline& outline, const Region& region, double time, const SizeField& size);
 
 /// Contacts, where a free side and a part meet, put on the nearest point of their part.
