@@ -52,7 +52,9 @@ TEST(Frames, OfABlockAtRestHaveItsAreaHeightAndWeight) {
   EXPECT_NEAR(frame.loads.at("floor")[1], -320 * disc, 1e-10);
   EXPECT_EQ(frame.loads.at("floor")[0], 0);
   EXPECT_EQ(frame.loads.at("beside")[1], 0);
-  EXPECT_NEAR(total(frame.fields.at("nu")), 320 * disc, 1e-10);
+  double area = 0;  // but for the columns 1 d outside, which have 1/48 of a row's grain: less than 0.05
+  for (const double nu : frame.fields.at("nu")) area += std::isnan(nu) ? 0 : nu;
+  EXPECT_NEAR(area, (320 - 2 * 16.0 / 48) * disc, 1e-10);
   EXPECT_NEAR(total(frame.mass_height), 320, 1e-10);
   const auto column = static_cast<std::size_t>(std::lround(10 - frames.grid.x_first));
   EXPECT_NEAR(frame.mass_height[column], 16, 1e-10);
@@ -74,7 +76,7 @@ TEST(Frames, OfABlockThatGlidesHaveItsVelocityWhereverItHasOne) {
   std::size_t nodes = 0;
   for (std::size_t n = 0; n < frames.grid.nodes(); ++n) {
     const double v_x = frame.fields.at("v_x")[n];
-    EXPECT_EQ(std::isnan(v_x), frame.fields.at("nu")[n] < least_map_nu);
+    EXPECT_EQ(std::isnan(v_x), std::isnan(frame.fields.at("nu")[n]));
     if (std::isnan(v_x)) continue;
     ++nodes;
     EXPECT_NEAR(v_x, 0.3, 1e-14);

@@ -108,3 +108,25 @@ def test_every_option_of_a_command_is_an_argument(run, tmp_path):
         drumlin.measure(run.path, slice_widht=3)
     with pytest.raises(drumlin.InputError, match="slice-width"):
         drumlin.measure(run.path, slice_width=-3)
+
+
+def test_frames_of_an_ensemble_at_rest_stand_on_their_walls(box, tmp_path):
+    box["stages"][0] |= {"duration_s": 0.6, "snapshots": 60}
+    runs = [drumlin.run(box | {"seed": seed}, tmp_path / f"RUN-{seed}").path for seed in (1, 2)]
+    ask = {"output": tmp_path / "FRAMES", "origin": 0.1, "at": ["0:0.4:0.1", 0.5]}
+    with pytest.raises(drumlin.InputError, match="--nu-bulk"):
+        drumlin.command("measure", *runs, **ask)
+    assert "2 runs at 6 times" in drumlin.command("measure", *runs, **ask, nu_bulk=0.8)
+    frames = drumlin.read(tmp_path / "FRAMES/frames.h5")
+    assert frames.runs.splitlines() == [str(run) for run in runs]
+    assert frames.times * frames.scales_time_s == pytest.approx(np.arange(6) / 10)
+    assert frames.fields_nu.shape == (2, 6, len(frames.z), len(frames.x)) and frames.height.shape == (2, 6, len(frames.x))
+    # All that there is stays, and its weight stands on the walls to the solver's tolerance.
+    weight = [drumlin.read(drumlin.read(run).snapshots[-1]).mass.sum() for run in runs]
+    assert 0.8 * frames.scalars_area == pytest.approx(np.repeat(weight, 6).reshape(2, 6)) and (frames.scalars_discharged == 0).all()
+    assert -frames.loads_box[:, -1, 1] == pytest.approx(weight, rel=1e-3) and frames.loads_box[:, -1, 0] == pytest.approx([0, 0], abs=1e-2)
+    for words, said in (({"at": ["0.2", "0.1"]}, "ascending"), ({"at": ["0:1"]}, "from:to:step"), ({"at": [3]}, "has no snapshot"),
+                        ({"x": [2, 1]}, "the smaller one first"), ({"map_width": 0.5}, "1 to 15 spacings")):
+        with pytest.raises(drumlin.InputError, match=said):
+            drumlin.command("measure", *runs, **ask | {"output": tmp_path / "OTHER"} | words, nu_bulk=0.8)
+    assert not (tmp_path / "OTHER").exists()

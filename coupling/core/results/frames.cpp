@@ -45,15 +45,16 @@ void set_fields(const MapGrid& grid, double nu_bulk, const std::function<NodeFlo
   constexpr std::array names{"nu", "v_x", "v_z", "sigma_xx", "sigma_zz", "sigma_xz", "I", "mu", "p"};
   std::array<std::vector<double>, names.size()> fields;
   fields.fill(std::vector<double>(grid.nodes(), no_value));
+  std::vector<double> nu_everywhere(grid.nodes());
   for (std::size_t node = 0; node < grid.nodes(); ++node) {
     const auto [nu, v_x, v_z, gradient, pressure] = flow_at(node);
-    fields[0][node] = nu;
+    nu_everywhere[node] = nu;
     if (!(nu >= least_map_nu)) continue;
     const PlaneInvariants at = plane_invariants(pressure, gradient);
     const std::array values{nu, v_x, v_z, pressure.xx, pressure.zz, -pressure.xz, at.I, at.mu, at.p};
     for (std::size_t f = 0; f < names.size(); ++f) fields[f][node] = values[f];
   }
-  frame.height = surface_heights(grid, fields[0], nu_bulk / 2);
+  frame.height = surface_heights(grid, nu_everywhere, nu_bulk / 2);
   for (std::size_t f = 0; f < names.size(); ++f) frame.fields[names[f]] = std::move(fields[f]);
 }
 

@@ -45,8 +45,8 @@ struct NodeFlow {
   double nu = 0, v_x = 0, v_z = 0;
   PlaneMatrix gradient, pressure;
 };
-/// Sets fields and height of a frame by what there is at each node: nu alone where it is less than
-/// least_map_nu, and the height at half of nu_bulk.
+/// Sets fields and height of a frame by what there is at each node: NaN where nu is less than least_map_nu,
+/// and the height at half of nu_bulk.
 void set_fields(const MapGrid& grid, double nu_bulk, const std::function<NodeFlow(std::size_t node)>& flow_at,
                 Frame& frame);
 
