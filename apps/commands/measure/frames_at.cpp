@@ -115,7 +115,7 @@ int measure_frames(const MeasureOptions& options) {
     std::vector<particles::FrameRun> runs;
     for (const particles::RunFolder& run : folders) runs.push_back(frame_run(run));
     const Scales& scales = folders.front().scales;
-    settings.origin = options.origin / scales.time_s;
+    settings.origin = options.origin.value_or(0) / scales.time_s;
     for (double& time : settings.times) time /= scales.time_s;
     const fs::path& folder = results.begin();
     Progress progress;

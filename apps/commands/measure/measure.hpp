@@ -19,7 +19,7 @@ struct MeasureOptions {
   std::vector<std::string> radial;    ///< centre of rings: "axis", or x and z in d; empty: none
   std::vector<double> height, width;  ///< x0, x1 of a profile over the height; z0, z1 of one over the width
   std::vector<std::string> at;        ///< times of frames, s since `origin`; empty: no frames
-  double origin = 0;                  ///< s
+  std::optional<double> origin;       ///< s; absent: 0
   std::vector<double> x, z;           ///< x0, x1 and z0, z1 of the nodes of frames, d; empty: of all grains
   std::optional<double> nu_bulk;      ///< of frames; absent: of the fill at the origin
   std::string grains;  ///< snapshots whose grains get their fields written, a list as in export; empty: none
@@ -31,7 +31,7 @@ struct MeasureOptions {
 
   void describe(Description& d) {
     // What was measured belongs to its run as that is now: the source of the results says so.
-    d.add("runs", runs, "RUN", "Folder of a finished run; of several with --at").decides(Decides::nothing);
+    d.add("run", runs, "RUN", "Folder of a finished run; of several with --at").decides(Decides::nothing);
     d.add("--study", study, "RUN",
           "Measured runs to be studied together instead: laws over the speed of rotation, the paper's table, "
           "figures")
@@ -42,7 +42,8 @@ struct MeasureOptions {
           "since --origin, or from:to:step")
         .needs("--output")
         .excludes("--study");
-    d.add("--origin", origin, "s", anything(), "Time of the scene that is 0 for --at").needs("--at");
+    d.add("--origin", origin, "s", anything(), "Time of the scene that is 0 for --at; absent: its start")
+        .needs("--at");
     d.add("--x", x, "X0,X1", "Nodes of --at from X0 to X1, in d; absent: around all grains").needs("--at");
     d.add("--z", z, "Z0,Z1", "Nodes of --at from Z0 to Z1, in d; absent: around all grains").needs("--at");
     d.add("--nu-bulk", nu_bulk, "", above(0, 1),

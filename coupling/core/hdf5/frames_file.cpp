@@ -11,7 +11,7 @@ namespace {
 
 /// One dataset of all frames; `values_of(frame)`: those of one, of the lengths `each`.
 void add_set(H5Content& out, const Frames& all, const std::string& group, const std::string& name,
-             std::vector<std::size_t> each, const auto& values_of) {
+             const std::vector<std::size_t>& each, const auto& values_of) {
   std::vector<double> values;
   for (const Frame& frame : all.frames) {
     const auto& of_one = values_of(frame);
@@ -20,8 +20,10 @@ void add_set(H5Content& out, const Frames& all, const std::string& group, const 
   const auto [unit, meaning] =
       group == "loads/" ? QuantityWords{"rho0 g d^2", "force on the walls of this name, along x, z"}
                         : quantity_words(name);
-  each.insert(each.begin(), {all.runs.size(), all.times.size()});
-  out.add_array(group + name, values, each, {unit, meaning});
+  std::vector<std::size_t> lengths{all.runs.size(), all.times.size()}, piece;
+  lengths.insert(lengths.end(), each.begin(), each.end());
+  if (each.size() == 2) piece = {1, 1, each[0], each[1]};  // most nodes of a field hold nothing
+  out.add_array(group + name, values, lengths, {unit, meaning}, piece);
 }
 
 std::string lines_of_names(const auto& names) {

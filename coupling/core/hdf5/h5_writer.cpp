@@ -45,12 +45,10 @@ float rounded_to(float value, int bits) {
 constexpr hsize_t all_rows = std::numeric_limits<hsize_t>::max();
 constexpr hsize_t packed_piece = 1 << 20;  // bytes of what is unpacked at once, at most
 
-/// Whole rows to a piece.
-void pack(hid_t creation, const std::vector<hsize_t>& shape) {
-  const hsize_t rows = shape[0], row_bytes = shape[1] * sizeof(float);
-  const hsize_t piece[] = {std::clamp<hsize_t>(packed_piece / row_bytes, 1, rows), shape[1]};
-  check_h5(H5Pset_chunk(creation, 2, piece) >= 0 && H5Pset_shuffle(creation) >= 0 &&
-               H5Pset_deflate(creation, 9) >= 0,
+/// In pieces of these lengths.
+void pack(hid_t creation, const std::vector<hsize_t>& piece, unsigned int effort) {
+  check_h5(H5Pset_chunk(creation, static_cast<int>(piece.size()), piece.data()) >= 0 &&
+               H5Pset_shuffle(creation) >= 0 && H5Pset_deflate(creation, effort) >= 0,
            "pack a dataset");
 }
 
@@ -107,7 +105,8 @@ struct Layout {
   hid_t type;
   std::vector<hsize_t> shape;
   H5Words words = {};
-  bool packed = false;
+  std::vector<hsize_t> piece = {};  ///< that is packed at once; empty: nothing is
+  unsigned int effort = 9;          ///< 1 to 9
 };
 
 /// A dataset and the groups on the way to it.
@@ -116,11 +115,11 @@ H5Id create_set(hid_t file, const std::string& name, const Layout& layout) {
   const bool single = shape.empty();
   const H5Id space(single ? -1 : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
                    H5Sclose);
-  const H5Id packing(layout.packed ? H5Pcopy(common().creation) : -1, H5Pclose);
-  if (layout.packed) pack(packing.get(), shape);
-  const hid_t set =
-      H5Dcreate2(file, name.c_str(), layout.type, single ? common().scalar : space.get(), common().links,
-                 layout.packed ? packing.get() : common().creation, H5P_DEFAULT);
+  const bool packed = !layout.piece.empty();
+  const H5Id packing(packed ? H5Pcopy(common().creation) : -1, H5Pclose);
+  if (packed) pack(packing.get(), layout.piece, layout.effort);
+  const hid_t set = H5Dcreate2(file, name.c_str(), layout.type, single ? common().scalar : space.get(),
+                               common().links, packed ? packing.get() : common().creation, H5P_DEFAULT);
   check_h5(set >= 0, "create a dataset");
   describe(set, layout.words);
   return {set, H5Dclose};
@@ -176,9 +175,10 @@ template void H5Content::add(const std::string&, std::span<const std::int32_t>, 
 template void H5Content::add(const std::string&, std::span<const std::int64_t>, H5Words);
 
 void H5Content::add_array(const std::string& name, std::span<const double> values,
-                          const std::vector<std::size_t>& lengths, H5Words words) {
+                          const std::vector<std::size_t>& lengths, H5Words words,
+                          const std::vector<std::size_t>& piece) {
   put(handles_->file->get(), name, values.data(),
-      {type_of<double>(), {lengths.begin(), lengths.end()}, words});
+      {type_of<double>(), {lengths.begin(), lengths.end()}, words, {piece.begin(), piece.end()}, 1});
 }
 void H5Content::add_table(const std::string& name, std::span<const double> values, std::size_t columns,
                           H5Words words) {
@@ -188,8 +188,10 @@ void H5Content::add_packed_table(const std::string& name, std::span<const double
                                  int bits, H5Words words) {
   std::vector<float> rounded;
   for (const double value : values) rounded.push_back(rounded_to(static_cast<float>(value), bits));
-  put(handles_->file->get(), name, rounded.data(),
-      {type_of<float>(), {values.size() / columns, columns}, words, !values.empty()});
+  const hsize_t rows = values.size() / columns, at_once = packed_piece / (columns * sizeof(float));
+  std::vector<hsize_t> piece;  // whole rows
+  if (rows > 0) piece = {std::clamp<hsize_t>(at_once, 1, rows), columns};
+  put(handles_->file->get(), name, rounded.data(), {type_of<float>(), {rows, columns}, words, piece});
 }
 void H5Content::add_number(const std::string& name, double value, H5Words words) {
   put(handles_->file->get(), name, &value, {type_of<double>(), {}, words});

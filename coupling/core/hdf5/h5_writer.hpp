@@ -27,9 +27,11 @@ class H5Content {
   void add(const std::string& name, const std::vector<T>& values, H5Words words = {}) {
     add(name, std::span<const T>(values), words);
   }
-  /// Of any number of lengths, the slowest index first; their product is that of `values`.
+  /// Of any number of lengths, the slowest index first; their product is that of `values`. `piece`: lengths
+  /// of what is packed at once, every bit kept; empty: nothing is.
   void add_array(const std::string& name, std::span<const double> values,
-                 const std::vector<std::size_t>& lengths, H5Words words = {});
+                 const std::vector<std::size_t>& lengths, H5Words words = {},
+                 const std::vector<std::size_t>& piece = {});
   /// Row after row; `values` holds a whole number of rows.
   void add_table(const std::string& name, std::span<const double> values, std::size_t columns,
                  H5Words words = {});
