@@ -9,6 +9,7 @@ import base64
 import json
 import pathlib
 import sys
+import zlib
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -20,7 +21,7 @@ from drumlin.pair import frames, measures
 
 COLOURS = 64
 NONE = 255  # no material there
-MOST_BYTES = 1_500_000  # of one side and field in what moves
+MOST_BYTES = 1_000_000  # of one side and field in what moves, before compression
 MOVING = {"speed": ("viridis", "√(gd)"), "p": ("magma", "ρ₀gd")}
 
 
@@ -145,9 +146,10 @@ def series(content, sides):
 
 
 def levels(values, top):
-    """Bytes: 0 to COLOURS - 1 up to `top`, NONE where there is nothing."""
-    scaled = np.clip(np.nan_to_num(values) / top * COLOURS, 0, COLOURS - 1).astype(np.uint8)
-    return base64.b64encode(np.where(np.isfinite(values), scaled, NONE).astype(np.uint8).tobytes()).decode("ascii")
+    """Bytes, a zlib stream in base64: 0 to COLOURS - 1 up to `top`, NONE where there is nothing."""
+    scaled = np.clip(np.nan_to_num(values) / top * COLOURS, 0, COLOURS - 1)
+    stream = zlib.compress(np.where(np.isfinite(values), scaled, NONE).astype(np.uint8).tobytes(), 9)
+    return base64.b64encode(stream).decode("ascii")
 
 
 def motion(sides):
@@ -166,6 +168,7 @@ def motion(sides):
         top = max(float(np.nanquantile(values[0], 0.995)) if np.isfinite(values[0]).any() else 0, 1e-9)
         colours = [plt.matplotlib.colors.to_hex(colour) for colour in plt.get_cmap(palette)(np.linspace(0, 1, COLOURS))]
         content["fields"].append({"name": name, "unit": unit, "top": top, "colours": colours, "sides": [levels(value, top) for value in values]})
+
     def outline(h, floor):
         return [[None if not up > 0 else round(float(up + low), 2) for up, low in zip(one, floor)] for one in h]
     content["surfaces"] = [outline(side.h[np.ix_(kept, columns)], side.floor[columns]) for side in sides]

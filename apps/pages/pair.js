@@ -2,13 +2,13 @@
 
 const SURFACES = ["#0072b2", "#d55e00"], FRAMES = 12;  // in a second
 
-function startPair() {
+async function startPair() {
   const content = JSON.parse(document.getElementById("pair-content").textContent), part = name => document.getElementById("pair-" + name);
   const { x, z, times, places } = content, wide = x[2], high = z[2], last = times.length - 1;
   const dx = (x[1] - x[0]) / Math.max(1, wide - 1), dz = (z[1] - z[0]) / Math.max(1, high - 1);
   const shown = { frame: 0, playing: false, since: 0, field: content.fields[0] };
   for (const field of content.fields) {
-    field.bytes = field.sides.map(text => Uint8Array.from(atob(text), letter => letter.charCodeAt(0)));
+    field.bytes = await Promise.all(field.sides.map(inflated));
     field.pens = field.colours.map(colour => [1, 3, 5].map(k => parseInt(colour.slice(k, k + 2), 16)));
     part("field").add(new Option(field.name === "p" ? "pressure" : field.name, field.name));
   }
@@ -85,4 +85,8 @@ function startPair() {
   draw();
 }
 
-startPair();
+startPair().catch(error => {
+  const said = document.createElement("p");
+  said.textContent = `What moves cannot be shown: ${error.message}`;
+  document.getElementById("motion").replaceChildren(said);
+});
