@@ -115,20 +115,20 @@ def series(content, sides):
         return numbers(values["particles"]), numbers(values["ci99"]), numbers(values["continuum"])
 
     for least, values in content["run_out"].items():
-        drawn.append((f"run-out at $h$ > {least} $d$", [entry(values)]))
+        drawn.append((f"run-out at $h$ > {least} $d$", entry(values)))
     for name, label in (("centre_x", "centre of mass, $x$  [$d$]"), ("centre_z", "centre of mass, $z$  [$d$]"), ("discharged", "discharged  [$d^2$]"),
                         ("discharge_rate", r"rate  [$d\sqrt{gd}$]"), ("kinetic_energy", r"kinetic energy  [$\rho_0gd^3$]")):
         if name in content["scalars"] and np.nanmax(np.abs(numbers(content["scalars"][name]["particles"])), initial=0) > 0:
-            drawn.append((label, [entry(content["scalars"][name])]))
+            drawn.append((label, entry(content["scalars"][name])))
     for name, load in content["loads"].items():
         component = "xz".index(load["component"])
         half = measures.interval(sides[0].frames.loads[name])[1][:, component]
-        drawn.append((f"load on {style.plain(name)}  [$\\rho_0gd^2$]", [(np.array(load["particles"])[:, component], half, np.array(load["continuum"])[:, component])]))
+        means = (numbers([at[component] for at in load[side]]) for side in ("particles", "continuum"))
+        drawn.append((f"load on {style.plain(name)}  [$\\rho_0gd^2$]", (next(means), half, next(means))))
     figure, axes = plt.subplots(-(-(len(drawn) + 1) // 3), 3, figsize=(13, 3 * -(-(len(drawn) + 1) // 3)), squeeze=False)
-    for cell, (label, curves) in zip(axes.flat, drawn):
-        for mean, half, other in curves:
-            style.band(cell, times, mean, np.nan_to_num(half), style.PARTICLES, "particles", marker="")
-            cell.plot(times, other, color=style.CONTINUUM, label="continuum")
+    for cell, (label, (mean, half, other)) in zip(axes.flat, drawn):
+        style.band(cell, times, mean, np.nan_to_num(half), style.PARTICLES, "particles", marker="")
+        cell.plot(times, other, color=style.CONTINUUM, label="continuum")
         cell.set(xlabel=r"$t$  [$\sqrt{d/g}$]", ylabel=label)
     last = axes.flat[len(drawn)]
     for error, label, colour in ((content["heights"]["rms"], "$h$, rms over $H_0$", style.OTHERS[0]),

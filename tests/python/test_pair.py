@@ -8,6 +8,7 @@ import pytest
 
 from conftest import SOURCES
 from drumlin.errors import InputError
+from drumlin.figures import result_files
 from drumlin.hdf5 import write_hdf5
 from drumlin.pair import comparison, frames, geometry, judgement, measures
 
@@ -33,7 +34,8 @@ def side(file, runs=1, noise=0.0, faster=1.0, more=None, drift=False):
     fields = {"nu": NU * full, "v_x": faster * moving * (1 + X / 60) * (1 + shift[:, None, None, None]) * full, "v_z": 0 * full, "sigma_xx": p, "sigma_zz": p,
               "sigma_xz": 0.3 * p, "I": 0.1 * moving * full, "mu": 0.3 * full, "p": p}
     area = 200 * (1 + shift[:, None]) * np.ones(len(TIMES))
-    scalars = {"area": area, "centre_x": (h * X).sum(axis=-1) / h.sum(axis=-1) * (1 + drift * shift[:, None]), "centre_z": (h**2).sum(axis=-1) / h.sum(axis=-1) / 2,
+    scalars = {"area": area, "centre_x": (h * X).sum(axis=-1) / h.sum(axis=-1) * (1 + drift * shift[:, None]),
+               "centre_z": (h**2).sum(axis=-1) / h.sum(axis=-1) / 2,
                "kinetic_energy": area * faster**2 * moving[:, :, 0, 0], "discharged": 0 * area, "discharge_rate": 0 * area}
     write_hdf5(file, {"format": "drumlin-frames-1", "names": "\n".join(fields), "header": f"nu_bulk = {NU}\ntitle = heap",
                       "scales/length_m": 2e-3, "scales/time_s": 0.0143, "scales/density_kg_m3": 2700.0, "runs": "\n".join(f"run-{k}" for k in range(runs)),
@@ -94,7 +96,8 @@ def test_other_grids_are_refused(tmp_path):
 
 def test_limits_say_what_they_hold_of_wrong(tmp_path):
     file = tmp_path / "limits.toml"
-    file.write_text('format = "drumlin-limits-1"\n[[limits]]\ncase = "collapse"\nquantity = "h"\nwhere = "hight"\nmeasure = "rms"\ntimes = "often"\nmust = -1\n')
+    file.write_text('format = "drumlin-limits-1"\n[[limits]]\ncase = "collapse"\nquantity = "h"\nwhere = "hight"\nmeasure = "rms"\n'
+                    'times = "often"\nmust = -1\n')
     with pytest.raises(InputError) as refusal:
         judgement.read_pair_limits(file)
     assert {problem["key"] for problem in refusal.value.problems} == {f"limits.0.{key}" for key in ("where", "zone", "measure", "times", "must")}
@@ -145,6 +148,15 @@ def test_a_continuum_inside_the_interval_is_told_as_a_share_of_the_times(tmp_pat
                                  figures=False)
     row = of(content["rows"], "centre_x")
     assert row["value"] == pytest.approx(5 / 9) and row["must_outcome"] == "missed"
+
+
+def test_published_rates_are_met_by_the_wider_slots(tmp_path, data):
+    table = result_files.read_rows(data / "pair/silo-rates.csv")
+    found = {row["half_width"]: frames.read_frames(side(tmp_path / f"{k}.h5", more={"scalars/discharge_rate": [1.03 * row["rate"] * 30**1.5 * (TIMES > 1)]}))
+             for k, row in enumerate(table)}
+    rows = judgement.against_rates(judgement.read_pair_limits(LIMITS), found, table)
+    assert [row["value"] for row in rows] == pytest.approx([0.03] * 4)
+    assert [(row["must_outcome"], row["aim_outcome"]) for row in rows] == [(None, None)] + [("met", "missed")] * 3
 
 
 def test_stress_inside_a_wall_is_normal_to_it(tmp_path):

@@ -186,3 +186,16 @@ def against_heights(limits, case, frames, table):
     rms = {time: math.sqrt(np.mean(np.square(differences))) for time, differences in found.items()}
     chosen = [time for time in rms if time >= float(since or 0)]
     return outcome_row(limit, 1.0, [rms[time] for time in chosen], math.nan, chosen) | {"rms": rms}
+
+
+def against_rates(limits, found, table, unit=30):
+    """The row of each published slot (rows of data/pair/silo-rates.csv) among `found`, {half width: the continuum's frames}, by its greatest rate; `unit`:
+    of the table's lengths, d. The narrowest is told, not judged."""
+    limit = next(limit for limit in limits["limits"] if limit["case"] == "lagree-silo")
+    rows, narrowest = [], min(row["half_width"] for row in table)
+    for published in table:
+        if frames := found.get(published["half_width"]):
+            rate = np.nanmax(frames.scalars["discharge_rate"][0]) / unit**1.5
+            row = outcome_row(limit, 1.0, rate / published["rate"] - 1, math.nan) | {"half_width": published["half_width"], "rate": rate}
+            rows.append(row | {"must_outcome": None, "aim_outcome": None} if published["half_width"] == narrowest else row)
+    return rows
