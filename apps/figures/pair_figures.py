@@ -104,7 +104,7 @@ def differences(sides):
     return figure
 
 
-def series(content, sides):
+def series(content):
     """Over time: run-outs, centre of mass, loads, what was discharged, kinetic energy, errors beside their noise floors."""
     times, drawn = np.array(content["times"]), []
 
@@ -122,9 +122,8 @@ def series(content, sides):
             drawn.append((label, entry(content["scalars"][name])))
     for name, load in content["loads"].items():
         component = "xz".index(load["component"])
-        half = measures.interval(sides[0].frames.loads[name])[1][:, component]
-        means = (numbers([at[component] for at in load[side]]) for side in ("particles", "continuum"))
-        drawn.append((f"load on {style.plain(name)}  [$\\rho_0gd^2$]", (next(means), half, next(means))))
+        across = {side: [at[component] for at in load[side]] for side in ("particles", "ci99", "continuum")}
+        drawn.append((f"load on {style.plain(name)}  [$\\rho_0gd^2$]", entry(across)))
     figure, axes = plt.subplots(-(-(len(drawn) + 1) // 3), 3, figsize=(13, 3 * -(-(len(drawn) + 1) // 3)), squeeze=False)
     for cell, (label, (mean, half, other)) in zip(axes.flat, drawn):
         style.band(cell, times, mean, np.nan_to_num(half), style.PARTICLES, "particles", marker="")
@@ -182,7 +181,7 @@ def main():
     sides = [measures.Mean(one, floor) for one in read]
     style.use_style()
     script.save_each({"heights": lambda: heights(sides), "maps": lambda: maps(sides), "differences": lambda: differences(sides),
-                      "series": lambda: series(content, sides)}, folder, content["reduced"])
+                      "series": lambda: series(content)}, folder, content["reduced"])
     whole_file.write_text(folder / "motion.json", json.dumps(motion(sides)))
 
 

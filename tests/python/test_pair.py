@@ -10,7 +10,7 @@ from conftest import SOURCES
 from drumlin.errors import InputError
 from drumlin.figures import result_files
 from drumlin.hdf5 import write_hdf5
-from drumlin.pair import comparison, frames, geometry, judgement, measures
+from drumlin.pair import comparison, frames, geometry, judgement, loads, measures
 
 LIMITS = SOURCES / "data/limits/pair.toml"
 X, Z, TIMES = np.arange(0, 61.0), np.arange(0, 31.0), np.arange(0, 9.0)
@@ -157,6 +157,21 @@ def test_published_rates_are_met_by_the_wider_slots(tmp_path, data):
     rows = judgement.against_rates(judgement.read_pair_limits(LIMITS), found, table)
     assert [row["value"] for row in rows] == pytest.approx([0.03] * 4)
     assert [(row["must_outcome"], row["aim_outcome"]) for row in rows] == [(None, None)] + [("met", "missed")] * 3
+
+
+def test_loads_are_means_over_time_where_a_run_has_them(tmp_path):
+    read = frames.read_frames(side(tmp_path / "a.h5", more={"header": f"nu_bulk = {NU}\ntime_origin_s = 0.5"}))
+    unit, lines = 2700 * 2e-3**3 / 0.0143**2, ["time_s,interval_s,wall,force_x_n_m,force_z_n_m"]
+    # Two intervals of 0.2 sqrt(d/g) about each whole time, at 1 and 3 units, and others in between.
+    for k in range(-4, 45):
+        force = {-1: 1, 0: 3}.get((k + 2) % 5 - 2, 100) if k >= 0 else 1e9
+        lines += [f"{0.5 + (k + 1) * 0.2 * 0.0143},{0.2 * 0.0143},{name},0,{-force * unit}" for name in ("floor", "gate")]
+    (tmp_path / "walls.csv").write_text("\n".join(lines) + "\n")
+    found = loads.mean_loads(read, [tmp_path], height=4.0)
+    assert found.keys() == {"floor"} and found["floor"][0, 1:, 1] == pytest.approx(-2)
+    assert abs(found["floor"][0, 0, 1]) < 100, "nothing from before the origin"
+    with pytest.raises(InputError, match="walls.csv: is missing"):
+        loads.mean_loads(read, [tmp_path / "none"], height=4.0)
 
 
 def test_stress_inside_a_wall_is_normal_to_it(tmp_path):

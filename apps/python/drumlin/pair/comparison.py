@@ -15,6 +15,7 @@ from . import measures
 from .frames import read_frames
 from .geometry import Walls
 from .judgement import Pair, judged, read_pair_limits
+from .loads import mean_loads
 
 STRESS = ("sigma_xx", "sigma_zz", "sigma_xz")
 ERRORS = {"v": ("v_x", "v_z"), "stress": STRESS} | {name: (name,) for name in ("v_x", "v_z", *STRESS, "p", "mu")}
@@ -47,8 +48,9 @@ def compared(pair):
     heights = {"rms": beside(measures.height_error("h")), "mass_rms": beside(measures.height_error("mass_height"))}
     errors = {name: {zone: beside(measures.field_error(names, zone, False)) | {"pooled": beside(measures.field_error(names, zone, True))}
                      for zone in ("flowing", "all")} for name, names in ERRORS.items() if all(each in particles.fields for each in names)}
-    loads = {name: {"component": "xz"[component], "particles": particles.loads[name], "continuum": continuum.loads[name],
-                    "error": beside(measures.load_error(name, component, pair.weight))} for name, component in pair.loads.items()}
+    loads = {name: {"component": "xz"[component], "particles": particles.loads[name], "ci99": measures.interval(pair.sides[0].loads[name])[1],
+                    "continuum": continuum.loads[name], "error": beside(measures.load_error(name, component, pair.weight))}
+             for name, component in pair.loads.items()}
     reach = {str(least): beside_runs(pair, lambda side, least=least: measures.run_out(side, least)) for least in measures.RUN_OUTS}
     stop = beside_runs(pair, lambda side: measures.stopped(side.frames.times, side.scalars["kinetic_energy"]))
     return {"times": particles.frames.times, "fill": {"height": measures.fill_height(particles), "area": particles.scalars["area"][0], "weight": pair.weight},
@@ -67,12 +69,15 @@ def steady(pair):
     return {"particles": measures.steady_part(pair.particles), "continuum": measures.steady_part(pair.continuum)}
 
 
-def compare(particles, continuum, output, case="any", limits=None, scene=None, record=None, figures=True):
+def compare(particles, continuum, output, case="any", limits=None, scene=None, record=None, runs=None, figures=True):
     """Compares two files of frames and writes pair.json, figures and index.html into the folder `output`; the content of pair.json.
     case: which limits of the file `limits` judge it, beside those of any pair; scene: the flow scene, whose walls and openings some limits ask for;
-    record: of the continuum, {"energy", "seconds"}. InputError where the sides do not fit one another."""
+    record: of the continuum, {"energy", "seconds"}; runs: folders of the particles' runs, whose walls.csv gives loads as means over time. InputError where
+    the sides do not fit one another."""
     sides = read_frames(particles), read_frames(continuum)
     require_one_grid(*sides)
+    if runs:
+        sides[0].loads = mean_loads(sides[0], runs, measures.fill_height(measures.Mean(sides[0], measures.floor_height(*sides))))
     pair = Pair(*sides, Walls.of_scene(scene, sides[1].scales["length_m"]) if scene else Walls(), record or {})
     rows = judged(read_pair_limits(limits), case, pair) if limits else []
     content = {"format": "drumlin-pair-1", "case": case, "reduced": sides[0].header.get("reduced") == "true",
