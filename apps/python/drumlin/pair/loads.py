@@ -11,8 +11,8 @@ WINDOW = 0.2  # sqrt(H0/g), about each time
 
 
 def mean_loads(frames, folders, height):
-    """The loads of frames from walls.csv of its runs (`folders`, in their order), each the mean over what lies within WINDOW about its time and after the
-    origin. height: H0. InputError where a run has no walls.csv (output.walls_every_s of its scene)."""
+    """The loads of frames from walls.csv of its runs (`folders`, in their order), each the mean over what lies within WINDOW about its time; NaN where that
+    reaches before the origin. height: H0. InputError where a run has no walls.csv (output.walls_every_s of its scene)."""
     files = [pathlib.Path(folder) / "walls.csv" for folder in folders]
     if missing := [file for file in files if not file.is_file()]:
         raise refused([(str(file), "", "is missing", "a run with output.walls_every_s") for file in missing])
@@ -22,11 +22,10 @@ def mean_loads(frames, folders, height):
     for run, file in enumerate(files):
         columns = result_files.read_table(file)[2]
         ends = (columns["time_s"] - float(frames.header["time_origin_s"])) / time
-        middles, begins = ends - columns["interval_s"] / time / 2, ends - columns["interval_s"] / time
+        middles = ends - columns["interval_s"] / time / 2
         force = np.array([columns["force_x_n_m"], columns["force_z_n_m"]]).T / unit
         for name, load in found.items():
-            here = (columns["wall"] == name) & (begins > -1e-6)
-            for t, at in enumerate(frames.times):
-                near = here & (np.abs(middles - np.clip(at, half, None)) <= half)
+            for t in np.flatnonzero(frames.times >= half):
+                near = (columns["wall"] == name) & (np.abs(middles - frames.times[t]) <= half)
                 load[run, t] = force[near].mean(axis=0) if near.any() else np.nan
     return found
