@@ -29,8 +29,11 @@ def speed(side):
     return np.hypot(side.fields["v_x"], side.fields["v_z"])
 
 
-def shown_times(times, count):
-    return np.unique(np.linspace(0, len(times) - 1, min(count, len(times))).round().astype(int))
+def shown_times(side, count):
+    """Evenly spread from the origin until the material stops."""
+    times = side.frames.times
+    last = np.flatnonzero(~(times > measures.stopped(times, side.scalars["kinetic_energy"])))[-1]
+    return np.unique(np.linspace(0, last, count).round().astype(int))
 
 
 def extent(sides):
@@ -59,7 +62,7 @@ def heights(sides):
     particles, continuum = sides
     x, each = particles.frames.x, np.nan_to_num(particles.frames.height - particles.floor).clip(0)
     half = measures.interval(each)[1]
-    chosen = shown_times(particles.frames.times, 6)
+    chosen = shown_times(particles, 6)
     figure, axes = plt.subplots(len(chosen), 1, figsize=(9, 1.7 * len(chosen)), squeeze=False, sharex=True, sharey=True)
     for row, t in zip(axes[:, 0], chosen):
         for side, colour, label, band in ((particles, style.PARTICLES, "particles", half[t]), (continuum, style.CONTINUUM, "continuum", None)):
@@ -74,7 +77,7 @@ def heights(sides):
 
 def maps(sides):
     """Speeds side by side at four times, on one scale a row."""
-    chosen = shown_times(sides[0].frames.times, 5)[1:]
+    chosen = shown_times(sides[0], 5)[1:]
     figure, axes = panels(sides, len(chosen), 2)
     for row, t in zip(axes, chosen):
         values = [speed(side)[t] for side in sides]
@@ -89,7 +92,7 @@ def maps(sides):
 
 def differences(sides):
     """Continuum less particles at four times: velocity along x and pressure; grey where one side alone has material."""
-    chosen = shown_times(sides[0].frames.times, 5)[1:]
+    chosen = shown_times(sides[0], 5)[1:]
     figure, axes = panels(sides, len(chosen), 2)
     for column, (name, label) in enumerate((("v_x", r"$\Delta v_x$  [$\sqrt{gd}$]"), ("p", r"$\Delta p$  [$\rho_0gd$]"))):
         for cell, t in zip(axes[:, column], chosen):

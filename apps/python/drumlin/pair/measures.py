@@ -72,7 +72,9 @@ def height_error(of):
 
 
 def fill_height(side):
-    return side.h[0].max()
+    """Of the material at the origin: what has left through a slot later lies deeper."""
+    there = side.fields["nu"][0] >= float(side.frames.header["nu_bulk"]) / 2
+    return np.max((side.h[0] + side.floor - side.frames.z[there.argmax(axis=0)])[there.any(axis=0)])
 
 
 def field_error(names, zone, pooled, there=None):
