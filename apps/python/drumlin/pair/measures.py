@@ -13,6 +13,7 @@ FLOWS = 1e-3  # inertial number from which material counts as flowing
 AT_REST = 1e-2  # share of the greatest kinetic energy
 STEADY = (0.1, 0.5)  # of the fill's area discharged
 RUN_OUTS = (1, 3, 5)  # d of height
+DENSE = 0.75  # of nu_bulk, which the kernel leaves nowhere in a column on an upright wall
 MOST_HALVINGS = 35
 
 
@@ -28,6 +29,7 @@ class Mean:
         self.fields = {name: np.where(there, _mean(values[runs]), np.nan) for name, values in frames.fields.items()}
         self.scalars = {name: _mean(values[runs]) for name, values in frames.scalars.items()}
         self.loads = {name: _mean(values[runs]) for name, values in frames.loads.items()}
+        self.dense = (np.nan_to_num(self.fields["nu"]) > DENSE * float(frames.header["nu_bulk"])).any(axis=1)  # over times and x
 
     def flowing(self):
         return np.nan_to_num(self.fields["I"]) > FLOWS
@@ -63,10 +65,10 @@ def noise_floor(measure, halves):
 
 
 def height_error(of):
-    """Root mean square over x of the difference of heights, over H0; `of`: h or mass_height."""
+    """Root mean square over x of the difference of heights, over H0, where a side is dense; `of`: h or mass_height."""
     def measure(first, second):
         a, b = getattr(first, of), getattr(second, of)
-        there = (a > 0) | (b > 0)
+        there = first.dense | second.dense
         return np.sqrt(_over(np.where(there, (b - a) ** 2, 0).sum(axis=-1), there.sum(axis=-1))) / fill_height(first)
     return measure
 
