@@ -72,16 +72,16 @@ def steady(pair):
 def compare(particles, continuum, output, case="any", limits=None, scene=None, record=None, runs=None, figures=True):
     """Compares two files of frames and writes pair.json, figures and index.html into the folder `output`; the content of pair.json.
     case: which limits of the file `limits` judge it, beside those of any pair; scene: the flow scene, whose walls and openings some limits ask for;
-    record: of the continuum, {"energy", "seconds"}; runs: folders of the particles' runs, whose walls.csv gives loads as means over time. InputError where
-    the sides do not fit one another."""
+    record: of the continuum, {"energy", "seconds"}; runs: folders of the particles' runs, whose walls.csv, if all have it, gives loads as means over time.
+    InputError where the sides do not fit one another."""
     sides = read_frames(particles), read_frames(continuum)
     require_one_grid(*sides)
-    if runs:
-        sides[0].loads = mean_loads(sides[0], runs, measures.fill_height(measures.Mean(sides[0], measures.floor_height(*sides))))
+    means = mean_loads(sides[0], runs or [], measures.fill_height(measures.Mean(sides[0], measures.floor_height(*sides))))
+    sides[0].loads = means or sides[0].loads
     pair = Pair(*sides, Walls.of_scene(scene, sides[1].scales["length_m"]) if scene else Walls(), record or {})
     rows = judged(read_pair_limits(limits), case, pair) if limits else []
     content = {"format": "drumlin-pair-1", "case": case, "reduced": sides[0].header.get("reduced") == "true",
-               "particles": described(sides[0]), "continuum": described(sides[1])} | compared(pair) | {"rows": rows}
+               "particles": described(sides[0]), "continuum": described(sides[1]), "mean_loads": bool(means)} | compared(pair) | {"rows": rows}
     content, output = plain(as_lists(content)), pathlib.Path(output)
     output.mkdir(parents=True, exist_ok=True)
     whole_file.write_text(output / "pair.json", json.dumps(content, indent=1) + "\n")

@@ -5,17 +5,16 @@ import pathlib
 import numpy as np
 
 from ..figures import result_files
-from ..study.runs import refused
 
 WINDOW = 0.2  # sqrt(H0/g), about each time
 
 
 def mean_loads(frames, folders, height):
     """The loads of frames from walls.csv of its runs (`folders`, in their order), each the mean over what lies within WINDOW about its time; NaN where that
-    reaches before the origin. height: H0. InputError where a run has no walls.csv (output.walls_every_s of its scene)."""
+    reaches before the origin. height: H0. None where a run has no walls.csv (output.walls_every_s of its scene)."""
     files = [pathlib.Path(folder) / "walls.csv" for folder in folders]
-    if missing := [file for file in files if not file.is_file()]:
-        raise refused([(str(file), "", "is missing", "a run with output.walls_every_s") for file in missing])
+    if not files or not all(file.is_file() for file in files):
+        return None
     length, time, density = (frames.scales[name] for name in ("length_m", "time_s", "density_kg_m3"))
     unit, half = density * length**3 / time**2, WINDOW / 2 * np.sqrt(height)
     found = {name: np.full(load.shape, np.nan) for name, load in frames.loads.items()}
