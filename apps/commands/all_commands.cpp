@@ -15,6 +15,7 @@
   row(calibrate_command) \
   row(flow_command) \
   row(compare_command) \
+  row(pair_command) \
   row(score_command) \
   row(scene_command) \
   row(solve_contacts_command) \

@@ -119,14 +119,10 @@ def script(name, *words):
 
 
 def pair(drumlin, folder, name):
-    """A small run beside the continuum of the same size, pressure, slope and speed; another geometry is refused."""
-    run, law = folder / name, SOURCE / "data/rheology/da-cruz-pooled.toml"
-    drumlin("measure", run, "--parts", "none")
-    flow = folder / f"{name}-flow.toml"
-    script("cookbook/flow_of_run.py", run, "--rheology", law, "-o", flow)
-    drumlin("flow", flow, "--rheology", law, "-o", folder / f"{name}-flow")
-    drumlin("compare", run, folder / f"{name}-flow", "--accept-unsteady", "-o", folder / f"{name}-report")
-    report = read_json(folder / f"{name}-report" / "comparison.json")
+    """A small run beside the continuum of the same size, pressure, slope and speed."""
+    run, made = folder / name, folder / f"{name}-pair"
+    drumlin("pair", run / "scene.toml", "--run", run, "--law", SOURCE / "data/rheology/da-cruz-pooled.toml", "--accept-unsteady", "-o", made)
+    report = read_json(made / "report" / "comparison.json")
     hold([f"sigma_zz.bulk.rel_l2 <= {PAIRS[name]}"], report["errors"])
     hold(["0.93 <= continuum.height / particles.height <= 1.07"], report["registration"])
 

@@ -3,7 +3,7 @@
 import importlib
 
 # The compiled part is loaded by what needs it.
-_HOMES = {"_drumlin": ["version"], "commands": ["command", "compare", "measure", "program", "run", "score", "solve_flow", "sweep"],
+_HOMES = {"_drumlin": ["version"], "commands": ["command", "compare", "make_pair", "measure", "program", "run", "score", "solve_flow", "sweep"],
           "contacts": ["ContactSolution", "contact_residual", "contact_solvers", "solve_contacts"],
           "errors": ["DrumlinError", "InputError", "IoError", "NotConvergedError"], "files": ["Arrays", "Folder", "read", "value_of"],
           "laws": ["CalibratedLaw", "Law", "calibrate"], "scenes": ["Simulation", "resolved", "toml_of"], "plot": [], "study": []}

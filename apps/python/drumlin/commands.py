@@ -211,6 +211,21 @@ def compare(run_folder, flow_folder, output, overwrite: bool = False, accept_uns
     return read(output)
 
 
+def make_pair(scene, law, output, changes=(), runs=(), seeds: int = 1, at=(), overwrite: bool = False, resume: bool = False, progress: bool | None = None,
+              **options) -> Folder:
+    """`drumlin pair`: particles and continuum of one scene, into a folder with flow.toml, the runs, the flow and a report, which is returned.
+
+    runs: finished ones in place of new ones, one for each of `seeds`; at: seconds since the flow begins at which both sides are compared. scene, law, changes,
+    resume, progress: as in run and solve_flow.
+    """
+    output = pathlib.Path(output)
+    law = _written(law, output, "law") if hasattr(law, "write") else law
+    file = _scene_file(scene, output, "drumlin-scene-1")
+    _command(_words("pair", file, law=law, output=output, set=_changes(changes, file is not scene), run=runs, seeds=seeds, at=at, overwrite=overwrite,
+                    resume=resume, **options), "pair", output, progress)
+    return read(output)
+
+
 def score(fields, limits, output, against=(), overwrite: bool = False, progress: bool | None = None) -> dict:
     """`drumlin score`: errors of a continuum (the folder of a flow, or a file of its profiles, maps or fields) against runs, by limits; the content of
     score.json (docs/formats/score.md). against: measured runs, those of data/bed at that speed unless told. progress: as in run."""

@@ -270,14 +270,20 @@ def over_openings(bottom, openings):
     return bottom
 
 
+def grid_reach(walls, openings, outline, reach, d):
+    """((x0, x1), (z0, z1)) of the frames: what a run reaches, or four heights to either side, within walls, and no farther below than openings."""
+    (left, low), (right, high) = outline.min(axis=0), outline.max(axis=0)
+    far = 4 * (high - low)
+    reach = reach or ((left - far, right + far), (low, high))
+    ends = np.array([[left, low], [right, high], *(wall[key] for wall in walls if "from_mm" in wall for key in ("from_mm", "to_mm"))])
+    return ((max(reach[0][0], ends[:, 0].min()) - d, min(reach[0][1], ends[:, 0].max()) + d),
+            (max(reach[1][0], low if openings else -math.inf) - d, reach[1][1] + d))
+
+
 def _tables(scene, sizes, gravity, walls, openings, outline, time, reach):
     d, (end, frames) = 0.5 * sum(sizes), time
     unit = math.sqrt(1e-3 * d / gravity["acceleration_m_s2"])
-    if reach is None:  # of a flow that nobody has seen: as far as walls go, and no farther than four heights
-        (left, low), (right, high) = np.min(outline, axis=0), np.max(outline, axis=0)
-        ends = [wall[key][0] for wall in walls if "from_mm" in wall for key in ("from_mm", "to_mm")] or [left, right]
-        far = 4 * (high - low)
-        reach = (max(min(*ends, left), left - far) - d, min(max(*ends, right), right + far) + d), (low - d, high + d)
+    reach = grid_reach(walls, openings, np.array(outline), reach, d)
     x_mm, z_mm = ([d * math.floor(low / d), d * math.ceil(high / d)] for low, high in reach)
     frames = {"frames_s": list(map(float, frames))} if len(frames) else {"frames_every_s": end / 20}
     return {"format": "drumlin-flow-scene-1", "title": scene["title"], "reduced": scene.get("reduced", False), "region": {"fill_mm": outline},

@@ -1,0 +1,135 @@
+// drumlin pair: both sides of one particle scene, and their report. What is done in which order is
+// drumlin/pair/command.py of the Python package, which has this program do it, command by command.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/command_line/command.hpp"
+#include "apps/output/figures.hpp"
+#include "apps/output/program.hpp"
+#include "apps/output/results.hpp"
+#include "apps/process/asked.hpp"
+#include "apps/process/interruption.hpp"
+#include "apps/process/program_files.hpp"
+#include "apps/process/standard_streams.hpp"
+#include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/text_file.hpp"
+#include "coupling/core/law/rheology_file.hpp"
+#include "coupling/core/machine/child_process.hpp"
+#include "particles/io/run_folder.hpp"
+#include "particles/scene/scene_file.hpp"
+
+namespace drumlin::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct PairOptions {
+  fs::path scene, law, output;
+  std::vector<std::string> overrides;
+  std::vector<double> at;  ///< s; empty: of the snapshots
+  int seeds = 1, threads = processors_at_hand();
+  std::vector<fs::path> runs;  ///< empty: made
+  std::string limits_case = "any";
+  bool scene_only = false, accept_unsteady = false;
+  ExistingOutput existing = ExistingOutput::refuse;
+
+  void describe(Description& d) {
+    d.scene(scene, "Particle scene");
+    d.add("--law", law, "RHEOLOGY.toml", "Law of the continuum, from calibrate or data/rheology").required();
+    d.output(output, "DIR", "Folder for flow.toml, runs, flow and report");
+    d.changes(overrides);
+    d.add("--seeds", seeds, "", at_least(1, 100),
+          "Runs of the scene, each with another seed, one after the other");
+    d.add("--run", runs, "RUN", "Finished runs of the scene, in place of new ones");
+    d.add(
+        "--at", at, "TIMES", at_least(0),
+        "Seconds since the flow begins at which both sides are compared; absent: up to 40 of the snapshots");
+    d.add("--case", limits_case, "NAME",
+          "Which limits of data/limits/pair.toml judge it, beside those of any pair");
+    d.add("--scene-only", scene_only,
+          "Leaves the flow scene alone; without --run its material stands under a level surface");
+    d.add("--accept-unsteady", accept_unsteady, "Of layers: compares a run that is not steady, too");
+    d.add("--threads", threads, "", at_least(1, most_threads), "Threads of a run").decides(Decides::nothing);
+    d.existing(existing, "Goes on where an earlier call was interrupted");
+  }
+};
+
+/// Starts a command of this program, which says by itself what goes wrong.
+void do_command(const std::vector<std::string>& words) {
+  flush_out();
+  ProcessRequest request{.program = program_beside("drumlin"), .words = words};
+  request.caught = interruption;
+  const ProcessEnd end = run_process(request);
+  stop_if_interrupted();
+  const std::string said =
+      fmt::format("drumlin {}: ended with exit code {}", fmt::join(words, " "), end.shell_code());
+  switch (static_cast<ExitCode>(end.shell_code())) {
+    case ExitCode::done:
+      return;
+    case ExitCode::wrong_input:
+      throw InputError(said);
+    case ExitCode::not_converged:
+      throw NotConvergedError(said);
+    default:
+      throw IoError(said);
+  }
+}
+
+Json given_of(const PairOptions& options, const std::string& scene) {
+  std::vector<std::string> runs;
+  for (const fs::path& run : options.runs) {
+    (void)particles::read_run_folder(run);
+    runs.push_back(run.string());
+  }
+  return {{"output", options.output.string()},
+          {"existing", options.existing == ExistingOutput::overwrite ? "--overwrite" : "--resume"},
+          {"scene", scene},
+          {"nu", read_rheology(options.law).nu},
+          {"file", options.scene.string()},
+          {"runs", runs},
+          {"seeds", options.seeds},
+          {"threads", options.threads},
+          {"at", options.at},
+          {"case", options.limits_case},
+          {"limits", (data_folder() / "limits" / "pair.toml").string()},
+          {"scene_only", options.scene_only},
+          {"accept_unsteady", options.accept_unsteady}};
+}
+
+int pair(const PairOptions& options) {
+  const std::string scene = particles::scene_text(particles::read_scene(options.scene, options.overrides));
+  const Json given = given_of(options, scene);
+  const ResultsRequest request =
+      results_of(options, "pair", options.output, "flow.toml", Json::array({scene}));
+  if (is_done_already(request)) return static_cast<int>(ExitCode::done);
+  std::optional<GrowingOutput> output;
+  std::string said;
+  work_for_script("../pair/command.py", [&](const Json& wish) -> Json {
+    if (wish.empty()) return given;
+    if (wish.contains("said")) said = wish["said"].get<std::string>();
+    if (wish.contains("words")) do_command(wish["words"].get<std::vector<std::string>>());
+    if (wish.contains("begin")) {
+      output.emplace(request, std::vector<std::string>{"scene.toml", "rheology.toml", "flow.toml"});
+      output->forget("*");
+      replace_file(options.output / "scene.toml", scene);
+      replace_file(options.output / "rheology.toml", file_text(options.law));
+      for (const char* name : {"scene.toml", "rheology.toml"}) output->list(name);
+      output->save();
+    }
+    return Json::object();
+  });
+  output.value().finish();
+  print_out(said);
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+Command pair_command() {
+  return command("pair", "Particles and continuum of one scene: runs both and compares them over time", pair);
+}
+
+}  // namespace drumlin::apps

@@ -1,0 +1,200 @@
+"""What `drumlin pair` starts once it has read the scene and the law: makes both sides and their report. A refusal is printed and ends with exit code 2. Each
+line of JSON that it prints is answered by a line (apps/commands/pair.cpp): {}: what was asked, {"begin": true}: the folder is claimed, {"words": [...]}:
+that command has been done, {"said": ...}: what is said at the end.
+  output, existing  folder of the results; --resume or --overwrite, for the commands below
+  scene, nu         text of the particle scene with all defaults; volume fraction of the law (OUTPUT/rheology.toml)
+  file, runs, seeds, threads, at, case, limits, scene_only, accept_unsteady: as the options say
+"""
+
+import json
+import math
+import pathlib
+import sys
+import tomllib
+
+import h5py
+import numpy as np
+
+from drumlin.errors import DrumlinError, InputError
+from drumlin.figures import whole_file
+from drumlin.pair import layers, scene as scenes
+from drumlin.study.runs import refused
+
+UNLIKE = ("title", "seed", "reduced", "output", "solver")  # may differ between a scene and a run of it
+
+
+def tell(**words):
+    print(json.dumps(words), flush=True)
+    return json.loads(sys.stdin.readline())
+
+
+def toml_text(content):
+    """A scene as people write it: a table for each group of keys, an array of tables for each list of them."""
+    def keys(table):
+        return "".join(f"{key} = {json.dumps(value, ensure_ascii=False)}\n" for key, value in table.items())
+    text = keys({key: value for key, value in content.items() if not isinstance(value, dict) and not _is_tables(value)})
+    for name, value in content.items():
+        for head, table in [(f"[{name}]", value)] if isinstance(value, dict) else [(f"[[{name}]]", each) for each in value] if _is_tables(value) else []:
+            text += f"\n{head}\n{keys(table)}"
+    return text
+
+
+def _is_tables(value):
+    return isinstance(value, list) and all(isinstance(each, dict) for each in value)
+
+
+class Run:
+    """A finished run of the scene: its grains from a time of the scene on, s."""
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        report = json.loads((self.folder / "run.json").read_text(encoding="utf-8"))
+        self.scales = report["scales"]
+        self.ends = [stage["time_s"] for stage in report.get("stages", [])] or None
+        self.snapshots = []
+        for file in sorted((self.folder / "snapshots").glob("*.h5")):
+            with h5py.File(file) as snapshot:
+                self.snapshots.append((float(snapshot["time"][()]) * self.scales["time_s"], file))
+
+    def grains_mm(self, file):
+        """(x, z, radius)"""
+        with h5py.File(file) as snapshot:
+            return [1e3 * self.scales["length_m"] * snapshot[f"grains/{name}"][:] for name in ("x", "z", "radius")]
+
+    def grains_from(self, origin):
+        """Grains when the flow begins, and what they reach from then on (all but the thousandth that flies farthest)."""
+        later = [file for time, file in self.snapshots if time >= origin * (1 - 1e-9)] or [self.snapshots[-1][1]]
+        x, z, radius = self.grains_mm(later[0])
+        every = [self.grains_mm(file) for file in later[:: math.ceil(len(later) / 20)]]
+        reach = tuple(tuple(np.quantile(np.concatenate([grains[axis] for grains in every]), (1e-3, 1 - 1e-3))) for axis in (0, 1))
+        return scenes.Grains(float(np.pi * np.sum(radius**2)), (float(x.mean()), float(z.mean())), None, reach), (2 * radius.min(), 2 * radius.max())
+
+
+def require_same_scene(given, folder):
+    def told(text):
+        return {key: value for key, value in tomllib.loads(text).items() if key not in UNLIKE}
+    first, second = told(given["scene"]), told((pathlib.Path(folder) / "scene.toml").read_text(encoding="utf-8"))
+    for key in sorted({*first, *second}):
+        if first.get(key) != second.get(key) and not (key == "grains" and "listed" in second.get("grains", {})):
+            raise refused([(f"{folder}/scene.toml", key, "is not that of the scene", f"a run of {given['file']}")])
+
+
+def runs_of(given, output):
+    """Folders of finished runs: those that are given, or one for each seed."""
+    for folder in given["runs"]:
+        require_same_scene(given, folder)
+    if given["runs"]:
+        return given["runs"]
+    first, folders = tomllib.loads(given["scene"]).get("seed", 0), []
+    for seed in range(first, first + given["seeds"]):
+        folders.append(str(output / f"run-{seed}"))
+        tell(words=["run", str(output / "scene.toml"), "--set", f"seed={seed}", "--threads", str(given["threads"]), "-o", folders[-1], given["existing"]])
+    return folders
+
+
+def times_of(given, scene, first, end):
+    """Seconds since the flow begins, 0 among them: as asked, or at most 40 of the snapshots of its first stage, evenly."""
+    if given["at"]:
+        return sorted({0.0, *given["at"]})
+    count = scene["stages"][first].get("snapshots", 0) or 20
+    count = max(each for each in range(1, 41) if count % each == 0) if len(scene["stages"]) == first + 1 else 20
+    return [end * k / count for k in range(count + 1)]
+
+
+def surface_mm(frames, length_m):
+    """(x, z) of the surface at time 0, the mean of the runs, where there is one."""
+    with h5py.File(frames) as file:
+        x, height = file["x"][:], file["height"][:, 0]
+    there = np.isfinite(height).all(axis=0)
+    return 1e3 * length_m * x[there], 1e3 * length_m * height[:, there].mean(axis=0)
+
+
+def pair_of_region(given, scene, output):
+    first = scenes.release(scenes.Reader(scene, given["file"]))
+
+    def flow_scene(**of_run):
+        return scenes.flow_scene(scene, given["nu"], given["file"], frames_s=of_run.pop("frames_s", ()), **of_run)
+
+    if not given["runs"]:
+        flow, _ = flow_scene()  # refuses before anything is run
+        if given["scene_only"]:
+            return begin(flow, output)
+    tell(begin=True)
+    runs = [Run(folder) for folder in runs_of(given, output)]
+    ends = runs[0].ends
+    times = [0.0, *scenes.stage_ends(scene, ends)]
+    grains, sizes = runs[0].grains_from(times[first])
+    sizes = None if "generated" in scene["grains"] else sizes
+    frames_s = times_of(given, scene, first, times[-1] - times[first])
+    flow, origin = flow_scene(grains=grains, sizes=sizes, ends=ends, frames_s=frames_s)
+    d_mm, grid = 1e3 * runs[0].scales["length_m"], flow["output"]
+    tell(words=["measure", *(str(run.folder) for run in runs), "--at", ",".join(f"{time:.12g}" for time in frames_s), "--origin", f"{origin:.12g}",
+                *(word for axis in "xz" for word in (f"--{axis}", ",".join(f"{end / d_mm:.12g}" for end in grid[f"{axis}_mm"]))),
+                "-o", str(output / "particles"), given["existing"]])
+    grains.surface = surface_mm(output / "particles" / "frames.h5", runs[0].scales["length_m"])
+    flow, _ = flow_scene(grains=grains, sizes=sizes, ends=ends, frames_s=frames_s)
+    write_flow(flow | {"output": grid}, output)
+    if given["scene_only"]:
+        return
+    solve(given, output)
+    compare(given, output)
+
+
+def pair_of_layers(given, scene, output):
+    if not given["runs"]:
+        flow = layers.flow_scene(scene, given["nu"], given["file"])
+        if given["scene_only"]:
+            return begin(flow, output)
+    tell(begin=True)
+    runs = [Run(folder) for folder in runs_of(given, output)]
+    grains, sizes = runs[0].grains_from(runs[0].snapshots[-1][0])
+    write_flow(layers.flow_scene(scene, given["nu"], given["file"], grains, None if "generated" in scene["grains"] else sizes), output)
+    if given["scene_only"]:
+        return
+    for run in runs[:2]:
+        if not (run.folder / "measured").exists():
+            tell(words=["measure", str(run.folder), "--parts", "none"])
+    solve(given, output)
+    tell(words=["compare", str(runs[0].folder), str(output / "flow"), "-o", str(output / "report"), given["existing"],
+                *(["--floor", str(runs[1].folder)] if len(runs) > 1 else []), *(["--accept-unsteady"] if given["accept_unsteady"] else [])])
+
+
+def begin(flow, output):
+    tell(begin=True)
+    write_flow(flow, output)
+
+
+def write_flow(flow, output):
+    whole_file.write_text(output / "flow.toml", toml_text(flow))
+
+
+def solve(given, output):
+    tell(words=["flow", str(output / "flow.toml"), "--rheology", str(output / "rheology.toml"), "-o", str(output / "flow"), given["existing"]])
+
+
+def compare(given, output):
+    from drumlin.pair import comparison  # pylint: disable=import-outside-toplevel  # with its figures it takes a second
+
+    made = json.loads((output / "flow" / "flow.json").read_text(encoding="utf-8"))
+    comparison.compare(output / "particles" / "frames.h5", output / "flow" / "frames.h5", output / "report", given["case"], given["limits"],
+                       output / "flow.toml", {"seconds": made.get("cpu_seconds", math.nan)})
+
+
+def main():
+    for stream in (sys.stdin, sys.stdout):
+        stream.reconfigure(encoding="utf-8", errors="surrogateescape")
+    given = tell()
+    scene, output = tomllib.loads(given["scene"]), pathlib.Path(given["output"])
+    try:
+        (pair_of_layers if "periodic_x" in scene else pair_of_region)(given, scene, output)
+    except InputError as error:
+        print(error)
+        sys.exit(2)
+    except DrumlinError as error:
+        print(error)
+        sys.exit(74)
+    tell(said=f"{output}: flow.toml\n" if given["scene_only"] else "" if "periodic_x" in scene else f"report: {(output / 'report' / 'index.html').absolute()}\n")
+
+
+if __name__ == "__main__":
+    main()
