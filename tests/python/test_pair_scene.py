@@ -70,6 +70,8 @@ def test_a_gate_that_opens_later_holds_until_then():
 def test_a_hole_between_walls_is_an_opening():
     flow = flow_of("silo")
     assert [flow["openings"][0][key] for key in ("from_mm", "to_mm")] == [[28, 0], [52, 0]]
+    run = scenes.Grains(area=5000, center=(40, 20), surface=(np.arange(0.0, 81.0, 2.0), np.full(41, 34.0)))
+    assert flow_of("silo", grains=run)["openings"] == flow["openings"]
     neck = flow_of("hourglass")
     assert [neck["openings"][0][key] for key in ("from_mm", "to_mm")] == [[-10, 0], [10, 0]]
     # The lower chamber catches what has left.

@@ -162,25 +162,21 @@ def surface_fill(walls, x, z, margin):
 
 def holes(walls, bottom):
     """Pieces of the bottom that no wall holds once the others are gone, [(from, to)], each between the ends of two that stay, on which it is then drawn."""
-    found, points = [], bottom
-    middles = 0.5 * (points[1:] + points[:-1])
+    found, wide = [], np.flatnonzero(np.diff(bottom[:, 0]) > 1e-6)  # between them are steps
+    begins, stops = bottom[wide], bottom[wide + 1]
+    middles = 0.5 * (begins + stops)
     held = abs(walls.floor(middles[:, 0], middles[:, 1] + 1e-6, staying=True) - middles[:, 1]) < 1e-4
-    held |= points[1:, 0] - points[:-1, 0] < 1e-6  # a step
     ends = np.array([point for line in walls.lines if line.stays for point in (line.begin, line.end)])
-    k = 0
-    while k < len(held):
-        last = k
-        while last < len(held) and not held[last]:
-            last += 1
-        if last > k and len(ends):
-            between = [ends[np.argmin(np.hypot(*(ends - points[at]).T))] for at in (k, last)]
-            width = np.hypot(*(between[1] - between[0]))
-            near = all(np.hypot(*(points[at] - end)) < 0.5 * width for at, end in zip((k, last), between))
-            middle = 0.5 * (between[0] + between[1])
-            depth = middle[1] - float(walls.floor(middle[0], middle[1] - 1e-3, staying=True))
-            if near and width > 0 and depth > 1.5 * width:
-                found.append((between[0], between[1]))
-        k = max(last, k + 1)
+    # From the first piece of each hole to its last.
+    edges = np.flatnonzero(np.diff(np.concatenate([[True], held, [True]]).astype(int)))
+    for first, after in edges.reshape(-1, 2) if len(ends) else []:
+        corners = begins[first], stops[after - 1]
+        begin, end = (ends[np.argmin(np.hypot(*(ends - corner).T))] for corner in corners)
+        middle, width = 0.5 * (begin + end), np.hypot(*(end - begin))
+        near = all(np.hypot(*(corner - at)) < 0.5 * width for corner, at in zip(corners, (begin, end)))
+        depth = middle[1] - float(walls.floor(middle[0], middle[1] - 1e-3, staying=True))
+        if near and depth > 1.5 * width:
+            found.append((begin, end))
     return found
 
 
