@@ -112,6 +112,11 @@ def test_the_scene_alone_needs_no_run(asked):
     assert answers.words == [[]] and not compared and flow["openings"][0]["name"] == "opening"
 
 
+def test_a_scene_without_a_snapshot_of_the_material_at_rest_is_refused(asked):
+    with pytest.raises(InputError, match="stages.0.snapshots: is 0"):
+        asked("janssen")
+
+
 def test_a_run_of_another_scene_is_refused(tmp_path):
     silo = SOURCES / "data" / "scenes" / "silo.toml"
     write_run(tmp_path / "other", drumlin.resolved(silo, {"effects.friction.grain_wall": 0.3}))

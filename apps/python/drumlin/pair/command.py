@@ -101,6 +101,11 @@ def times_of(given, scene, first, end):
     return [end * k / count for k in range(count + 1)]
 
 
+def require_snapshot(given, scene, first):
+    if not scene["stages"][first - 1].get("snapshots"):
+        raise refused([(given["file"], f"stages.{first - 1}.snapshots", "is 0: the material at rest is measured in the snapshot at its end", "1 or more")])
+
+
 def surface_mm(frames, length_m):
     """(x, z) of the surface at time 0, the mean of the runs, where there is one."""
     with h5py.File(frames) as file:
@@ -119,6 +124,7 @@ def pair_of_region(given, scene, output):
         flow, _ = flow_scene()  # refuses before anything is run
         if given["scene_only"]:
             return begin(flow, output)
+    require_snapshot(given, scene, first)
     tell(begin=True)
     runs = [Run(folder) for folder in runs_of(given, output)]
     ends = runs[0].ends
