@@ -189,17 +189,8 @@ Point straight_velocity(const std::vector<Motion>& motions, double time,
 
 }  // namespace
 
-void open_walls(Walls& walls, const Stage& stage) {
-  if (!stage.opens) return;
-  walls.open.resize(walls.names.size());
-  for (std::size_t w = 0; w < walls.names.size(); ++w)
-    if (std::find(stage.opens->begin(), stage.opens->end(), walls.names[w]) != stage.opens->end())
-      walls.open[w] = true;
-}
-
 std::vector<DrivenState> begin_stage(Walls& walls, const Stage& stage, const Scales& scales,
                                      double time_in_old_stage, std::span<const DrivenState> driven) {
-  open_walls(walls, stage);
   std::vector<DrivenState> states;
   for (std::size_t w = 0; w < walls.names.size(); ++w) {
     walls.pose_at_start[w] = walls.pose(static_cast<int>(w), time_in_old_stage, driven);

@@ -19,9 +19,7 @@ std::vector<Point_mm> glued_centers_mm(const Wall& wall);
 
 /// Dimensionless walls of a scene, at rest.
 Walls walls_of(const Scene&, const Scales&);
-/// Takes away the walls that a stage opens.
-void open_walls(Walls&, const Stage& stage);
-/// Begins a stage: walls that it opens are taken away, poses are carried over from `time_in_old_stage`,
+/// Begins a stage: poses are carried over from `time_in_old_stage`,
 /// motions are replaced by those of `stage`. `driven`: states of the walls that the old stage drove. Returns
 /// those of the new stage: a wall that it drives starts with what velocity it has along the new direction, if
 /// it was driven or glided.

@@ -33,10 +33,9 @@ void refuse_long_strain(const CellState& cell, double h) {
 MovingCell Simulation::begin_cell_step(double h) {
   CellState& cell = *state_.cell;
   refuse_short_cell(cell, state_.bodies);
-  const CellLaw law = cell_law(scene_.stages[state_.stage].cell, scales_);
-  const CellResponse response = response_of(law, cell, state_.bodies);
+  const CellResponse response = response_of(setting_.cell, cell, state_.bodies);
   const double before = state_.energy ? kinetic_energy(state_.bodies) : 0;
-  drive_cell(law, response, h, cell, state_.bodies);
+  drive_cell(setting_.cell, response, h, cell, state_.bodies);
   refuse_long_strain(cell, h);
   if (state_.energy) add_cell_work(kinetic_energy(state_.bodies) - before, *state_.energy);
   return {cell, response};

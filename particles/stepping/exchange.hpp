@@ -2,15 +2,10 @@
 // Grains that outlets take away, give back and sources pour, between two steps.
 #include <cstdint>
 #include <deque>
-#include <span>
-#include <string>
-#include <variant>
 #include <vector>
 
 #include "particles/bodies/bodies.hpp"
-#include "particles/bodies/walls.hpp"
 #include "particles/scene/scene.hpp"
-#include "particles/stepping/impulse_cache.hpp"
 
 namespace drumlin::particles {
 
@@ -38,33 +33,13 @@ struct Traffic {
   std::vector<std::int64_t> poured;  ///< by each source
 };
 
-/// Positions of all grains at an earlier instant.
-struct EarlierPlaces {
-  double time = 0;
-  std::vector<double>*x = nullptr, *z = nullptr;
-};
-
-/// What an exchange looks at and what it changes.
-struct ExchangeInput {
-  const Scene& scene;
-  const Scales& scales;
-  std::span<const Shape> shapes;  ///< of the moment
-  double time = 0;
-  std::int64_t step = 0;
-  int unknowns_per_contact = 1;
-};
-struct ExchangeState {
-  Bodies& bodies;
-  ImpulseCache& memory;
-  Traffic& traffic;
-  std::vector<EarlierPlaces> marks;  ///< a new grain came to its position at its velocity
-};
+struct EventInput;
 
 /// The traffic of a scene before its first step; the grains get their identities.
 Traffic first_traffic(const Scene&, Bodies&);
 /// Takes away what stands in outlets, then puts in what comes back and what is poured, where there is room: a
 /// new disc and what is there are apart by 1 % of its radius at least. New grains stand behind all others.
-void exchange_grains(const ExchangeInput&, const ExchangeState&);
+void exchange_grains(const EventInput&);
 /// Grains of a source that should be there by now and found no room.
 std::int64_t waiting(const Source&, std::int64_t poured, double seconds);
 

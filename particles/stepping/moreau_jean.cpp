@@ -19,9 +19,9 @@ class MoreauJean final : public Stepper {
 
   StepReport advance(const MovingState& state, WallStep& walls, double time_step) override {
     s_.crossings.begin(state.bodies, walls.before);
-    if (state.cell) s_.laws.period = period_of(state.cell->state);
+    if (state.cell) state.laws.period = period_of(state.cell->state);
     const CellResponse cell = state.cell ? state.cell->response : CellResponse{};
-    const StepInput step{s_.laws, state.bodies, walls, state.driven, s_.free, time_step, cell};
+    const StepInput step{state.laws, state.bodies, walls, state.driven, s_.free, time_step, cell};
     StepReport report;
     Stopwatch watch;
     if (s_.energy) s_.energy->open(state.bodies, state.energy);
@@ -37,8 +37,6 @@ class MoreauJean final : public Stepper {
     if (s_.energy) s_.energy->close(state.bodies, *state.energy);
     return report;
   }
-
-  void follow(const StepLaws& laws) override { s_.laws = laws; }
 
   std::vector<WallContact> wall_contacts() const override {
     std::vector<WallContact> at_walls;

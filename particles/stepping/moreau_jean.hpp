@@ -25,8 +25,8 @@
 #include "particles/parallel/world.hpp"
 #include "particles/solver/solver_names.hpp"
 #include "particles/solver/stopping_rule.hpp"
-#include "particles/stepping/impulse_cache.hpp"
 #include "particles/stepping/energy_ledger.hpp"
+#include "particles/stepping/impulse_cache.hpp"
 #include "particles/stepping/lost_grain.hpp"
 #include "particles/stepping/overlap.hpp"
 #include "particles/stepping/projection_rule.hpp"
@@ -55,6 +55,7 @@ struct StepReport {
 
 /// Everything that a step changes and the next one needs.
 struct MovingState {
+  StepLaws& laws;  ///< the effects are always the same ones; of a moving cell the period changes
   Bodies& bodies;
   ImpulseCache& memory;
   std::span<DrivenState> driven;        ///< in the order of WallStep::driven
@@ -74,8 +75,6 @@ class Stepper {
   virtual ~Stepper() = default;
   /// `walls` is changed only where contacts push a wall.
   virtual StepReport advance(const MovingState& state, WallStep& walls, double time_step) = 0;
-  /// Takes over other coefficients or another gravity, from the next step on. The effects stay the same.
-  virtual void follow(const StepLaws& laws) = 0;
   /// What walls gave grains in the last step, impacts among it.
   virtual std::vector<WallContact> wall_contacts() const = 0;
   /// Loaded contacts of the last step, with the normals that it used.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "coupling/core/basics/errors.hpp"
 #include "particles/scene/longest_step.hpp"
@@ -113,15 +114,17 @@ Scales scales_of(const Scene& scene) {
   return drumlin::scales_of(mean_diameter_m(scene.grains), g > 0 ? g : 9.81, scene.grains.density_kg_m3);
 }
 
-Simulation::Simulation(const Scene& scene, int threads, World* world)
+Simulation::Simulation(SimulationState state, const Scene& scene, int threads, World* world)
     : scene_(scene),
       scales_(scales_of(scene)),
-      plan_(time_plan(scene, scales_)),
-      walls_(walls_of(scene, scales_)),
-      extent_(extent_of(scene, scales_, walls_)),
-      frame_(laws_of(scene, scales_).rotating_frame),
-      stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads, world))) {
-  const StepLaws laws = laws_of(scene, scales_);
+      plan_(time_plan(scene, scales_, state.ends)),
+      setting_{walls_of(scene, scales_), laws_of(scene, scales_)},
+      extent_(extent_of(scene, scales_, setting_.walls)),
+      state_(std::move(state)),
+      stepper_(make_stepper(setting_.laws, solver_of(scene, threads, world))) {}
+
+Simulation::Simulation(const Scene& scene, int threads, World* world)
+    : Simulation(SimulationState{}, scene, threads, world) {
   state_.bodies = place_grains(scene, scales_);
   if (scene.grains.thermal_speed_mm_s)
     add_thermal_motion(*scene.grains.thermal_speed_mm_s * 1e-3 / scales_.velocity_m_s(), scene.seed,
@@ -129,55 +132,65 @@ Simulation::Simulation(const Scene& scene, int threads, World* world)
   if (changes_gravity(scene)) state_.gravity = scene.effects.gravity;
   if (scene.output.walls_every_s) state_.loads.emplace();
   if (changes_grains(scene)) state_.traffic = first_traffic(scene, state_.bodies);
+  const StepLaws& laws = setting_.laws;
   if (moves_cell(scene)) {
     state_.cell = cell_at_rest(laws.period);
     wrap_grains(*state_.cell, state_.bodies);
   }
-  enter_stage(0);
-  if (starts_deposited(scene) && laws.gravity)
-    state_.memory =
-        impulses_under_weight(state_.bodies, walls_.shapes_at(0, state_.driven), laws.period, *laws.gravity,
-                              plan_.stages[0].time_step, unknowns_of(laws.contact_law));
+  state_.pose_at_start = setting_.walls.pose_at_start;
+  const auto gravity = laws.gravity;  // in which grains were placed: stages may change it
+  state_.driven = make_setting();
+  const auto shapes = setting_.walls.shapes_at(0, state_.driven);
+  if (starts_deposited(scene) && gravity)
+    state_.memory = impulses_under_weight(state_.bodies, shapes, laws.period, *gravity,
+                                          plan_.stages[0].time_step, unknowns_of(laws.contact_law));
   if (Scene asked = scene; !lists_of(asked).empty()) {
-    const auto shapes = walls_.shapes_at(0, state_.driven);
-    start_overlaps_ =
-        overlaps_at_start(state_.bodies, shapes, resting_steps(walls_, state_.bodies.material), laws.period);
-    refuse_deep_overlap(scene, walls_, start_overlaps_);
+    start_overlaps_ = overlaps_at_start(state_.bodies, shapes,
+                                        resting_steps(setting_.walls, state_.bodies.material), laws.period);
+    refuse_deep_overlap(scene, setting_.walls, start_overlaps_);
     refuse_steps_too_long(scene, scales_, plan_, state_.bodies);
   }
 }
 
 Simulation::Simulation(const Scene& scene, SimulationState state, int threads, World* world)
-    : scene_(scene),
-      scales_(scales_of(scene)),
-      plan_(time_plan(scene, scales_, state.ends)),
-      walls_(walls_of(scene, scales_)),
-      extent_(extent_of(scene, scales_, walls_)),
-      frame_(laws_of(scene, scales_).rotating_frame),
-      state_(std::move(state)),
-      stepper_(make_stepper(laws_of(scene, scales_), solver_of(scene, threads, world))) {
-  check_state(state_, scene_, plan_, walls_);
+    : Simulation(std::move(state), scene, threads, world) {
+  check_state(state_, scene_, plan_, setting_.walls);
   put_in_order(state_.memory);  // older checkpoints have it in the order of the solve
-  for (int before = 0; before < state_.stage; ++before) open_walls(walls_, scene_.stages[before]);
-  walls_.pose_at_start = state_.pose_at_start;
-  const auto driven = begin_stage(walls_, scene_.stages[state_.stage], scales_, 0);
-  walls_.pose_at_start = state_.pose_at_start;
-  if (driven.size() != state_.driven.size())
+  if (make_setting().size() != state_.driven.size())
     throw InputError("checkpoint: walls moved by a force do not fit the scene");
 }
 
 Simulation::~Simulation() = default;
 
-void Simulation::enter_stage(int stage) {
-  if (state_.gravity) state_.gravity = gravity_at(state_.time_in_stage);
+EventInput Simulation::event_input() {
+  return {scene_, scales_, plan_.stages[state_.stage].time_step, setting_, state_};
+}
+
+void Simulation::apply_events(bool each_step) {
+  for (const Event& event : events_)
+    if (event.each_step == each_step && event.from <= state_.stage && state_.stage < event.end)
+      event.apply(scene_.stages[event.from], event_input());
+}
+
+std::vector<DrivenState> Simulation::make_setting() {
+  setting_ = {walls_of(scene_, scales_), laws_of(scene_, scales_)};
+  setting_.walls.pose_at_start = state_.pose_at_start;
+  events_ = events_of(scene_);
+  const auto driven = state_.driven;
+  apply_events(false);
+  return std::exchange(state_.driven, driven);
+}
+
+void Simulation::enter_next_stage() {
+  if (state_.gravity) state_.gravity = gravity_at(event_input(), state_.time_in_stage);
   // Those of a stage that may end at any step are made for snapshots that are not to come.
   if (scene_.stages[state_.stage].until) state_.marks.clear();
-  state_.driven = begin_stage(walls_, scene_.stages[stage], scales_, state_.time_in_stage, state_.driven);
-  state_.stage = stage;
+  ++state_.stage;
+  apply_events(false);
   state_.step_in_stage = 0;
   state_.time_at_stage_start += state_.time_in_stage;
   state_.time_in_stage = 0;
-  state_.pose_at_start = walls_.pose_at_start;
+  state_.pose_at_start = setting_.walls.pose_at_start;
   if (state_.traffic)
     for (OutletState& outlet : state_.traffic->outlets) outlet.at_stage_start = outlet.taken();
 }
@@ -197,13 +210,12 @@ void Simulation::mark_positions() {
 }
 
 StepReport Simulation::step() {
-  if (state_.step_in_stage == plan_.stages[state_.stage].steps) enter_stage(state_.stage + 1);
-  if (state_.traffic) exchange();
+  if (state_.step_in_stage == plan_.stages[state_.stage].steps) enter_next_stage();
+  apply_events(true);
   mark_positions();
   const double h = plan_.stages[state_.stage].time_step;
-  follow_stage(h);
   if (state_.loads && state_.loads->time == 0) add_wall_loads(0);
-  StepReport report = frame_ ? advance_in_laboratory(h) : advance_here(h);
+  StepReport report = setting_.laws.rotating_frame ? advance_in_laboratory(h) : advance_here(h);
   if (!report.lost) report.lost = grain_that_is_not_finite(state_.bodies);
   if (!report.lost) report.lost = grain_too_fast(state_.bodies, h);
   for (const DrivenState& wall : state_.driven)
@@ -219,8 +231,8 @@ StepReport Simulation::step() {
 }
 
 StepReport Simulation::advance_here(double h) {
-  WallStep walls = wall_step(walls_, state_.time_in_stage, h, state_.driven, state_.bodies.material);
-  MovingState moving{state_.bodies, state_.memory, state_.driven, state_.energy};
+  WallStep walls = wall_step(setting_.walls, state_.time_in_stage, h, state_.driven, state_.bodies.material);
+  MovingState moving{setting_.laws, state_.bodies, state_.memory, state_.driven, state_.energy};
   if (!state_.cell) return stepper_->advance(moving, walls, h);
   moving.cell.emplace(begin_cell_step(h));
   const CellState begun = *state_.cell;
@@ -230,12 +242,14 @@ StepReport Simulation::advance_here(double h) {
 }
 
 StepReport Simulation::advance_in_laboratory(double h) {
+  const TurningFrame frame = *setting_.laws.rotating_frame;
   const double time = state_.time();
-  to_laboratory(*frame_, time, state_.bodies);
-  WallStep walls =
-      in_laboratory(*frame_, time, h, wall_step(walls_, state_.time_in_stage, h, {}, state_.bodies.material));
-  const StepReport report = stepper_->advance({state_.bodies, state_.memory, {}, state_.energy}, walls, h);
-  from_laboratory(*frame_, time + h, state_.bodies);
+  to_laboratory(frame, time, state_.bodies);
+  WallStep walls = in_laboratory(
+      frame, time, h, wall_step(setting_.walls, state_.time_in_stage, h, {}, state_.bodies.material));
+  const StepReport report =
+      stepper_->advance({setting_.laws, state_.bodies, state_.memory, {}, state_.energy}, walls, h);
+  from_laboratory(frame, time + h, state_.bodies);
   return report;
 }
 
@@ -244,9 +258,10 @@ bool Simulation::snapshot_due() const {
 }
 
 Point Simulation::normal_in_scene(double n_x, double n_z) const {
-  if (!frame_) return {n_x, n_z};
+  const auto& frame = setting_.laws.rotating_frame;
+  if (!frame) return {n_x, n_z};
   // Normals are those of the beginning of the step.
-  return direction_in_frame(*frame_, state_.time() - plan_.stages[state_.stage].time_step, {n_x, n_z});
+  return direction_in_frame(*frame, state_.time() - plan_.stages[state_.stage].time_step, {n_x, n_z});
 }
 
 ContactPlaces Simulation::last_places() const {
@@ -272,11 +287,11 @@ std::vector<SnapshotContact> Simulation::last_contacts() const {
 
 Snapshot Simulation::take_snapshot() {
   ++state_.snapshots;
-  StepLaws laws = laws_of(scene_, scales_);
-  if (state_.gravity) set_gravity(gravity_at(state_.time_in_stage), scales_, laws);
+  const StepLaws& laws = setting_.laws;
   Point gravity = laws.gravity.value_or(Point{});
-  if (frame_) gravity = direction_in_frame(*frame_, state_.time(), gravity);
-  Snapshot s = snapshot_of({scene_, scales_, plan_, walls_, laws.period, gravity}, state_);
+  if (state_.gravity) gravity = law_of(gravity_at(event_input(), state_.time_in_stage), {scales_, {}});
+  if (laws.rotating_frame) gravity = direction_in_frame(*laws.rotating_frame, state_.time(), gravity);
+  Snapshot s = snapshot_of({scene_, scales_, plan_, setting_.walls, laws.period, gravity}, state_);
   s.contacts = last_contacts();
   return s;
 }

@@ -1,65 +1,22 @@
 #pragma once
 // A scene in time: stages, wall motions, steps, snapshots. Knows no files.
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "particles/bodies/bodies.hpp"
 #include "particles/bodies/snapshot.hpp"
 #include "particles/bodies/walls.hpp"
 #include "particles/contact/contact_places.hpp"
-#include "particles/effects/rotating_frame.hpp"
 #include "particles/scene/scene.hpp"
 #include "particles/scene/scene_walls.hpp"
-#include "particles/stepping/impulse_cache.hpp"
-#include "particles/stepping/exchange.hpp"
-#include "particles/stepping/left_grains.hpp"
+#include "particles/stepping/events.hpp"
 #include "particles/stepping/moreau_jean.hpp"
 #include "particles/stepping/start_check.hpp"
-#include "particles/stepping/time_plan.hpp"
-#include "particles/stepping/wall_loads.hpp"
 
 namespace drumlin::particles {
-
-/// Everything that the next step depends on: a run continued from it gives the same bytes.
-struct SimulationState {
-  std::int64_t step = 0;           ///< steps done
-  int stage = 0;                   ///< of the next step
-  std::int64_t step_in_stage = 0;  ///< steps done in it
-  double time_at_stage_start = 0;
-  double time_in_stage = 0;
-  Bodies bodies;
-  ImpulseCache memory;
-  std::vector<Pose> pose_at_start;  ///< of each wall, when the current stage began
-  std::vector<DrivenState> driven;  ///< of each wall that the current stage drives; position since its start
-  std::int64_t snapshots = 0;       ///< taken so far
-
-  /// Positions kept for the displacement over the velocity window of a snapshot to come.
-  struct Mark {
-    std::int64_t snapshot_step = 0;
-    double time = 0;
-    std::vector<double> x, z;
-  };
-  std::deque<Mark> marks;
-
-  std::optional<EnergyLedger> energy;  ///< after the first step of a scene that asks for it
-
-  // Of a scene that ends stages early.
-  std::vector<StageEnd> ends;   ///< stages that are over
-  std::int64_t rest_steps = 0;  ///< at rest in a row, up to the last one
-
-  std::optional<Gravity> gravity;  ///< when the current stage began; of a scene whose stages change it
-  std::optional<WallLoads> loads;  ///< of a scene that asks for walls.csv
-  std::optional<Traffic> traffic;  ///< of a scene with outlets or sources
-  std::optional<LeftGrains> left;  ///< once a grain has left
-  std::optional<CellState> cell;   ///< of a scene whose cell moves
-
-  double time() const { return time_at_stage_start + time_in_stage; }
-};
 
 Scales scales_of(const Scene& scene);
 
@@ -107,7 +64,7 @@ class Simulation {
   const SimulationState& state() const { return state_; }
   const TimePlan& plan() const { return plan_; }
   const Scales& scales() const { return scales_; }
-  const Walls& walls() const { return walls_; }
+  const Walls& walls() const { return setting_.walls; }
   const Stepper& stepper() const { return *stepper_; }
   /// Gives back what the next step can do without: before output takes memory of its own.
   void release_memory() { stepper_->release_memory(); }
@@ -115,16 +72,21 @@ class Simulation {
   const StartOverlaps& start_overlaps() const { return start_overlaps_; }
 
  private:
-  void enter_stage(int stage);
+  /// What all begin with; nothing is placed nor checked.
+  Simulation(SimulationState state, const Scene& scene, int threads, World* world);
+  /// What an event sees of the next step.
+  EventInput event_input();
+  /// Applies those events that count for the stage.
+  void apply_events(bool each_step);
+  /// Makes setting and events of scene and state; returns how its driven walls begin the stage.
+  std::vector<DrivenState> make_setting();
+  void enter_next_stage();
   StepReport advance_here(double time_step);
   StepReport advance_in_laboratory(double time_step);
   MovingCell begin_cell_step(double time_step);
   void end_cell_step(const CellState& begun, double time_step);
   void mark_positions();
-  void exchange();
   void count_left();
-  void follow_stage(double time_step);
-  Gravity gravity_at(double time_in_stage) const;
   void add_wall_loads(double time_step);
   void end_stage_if_due();
   /// A normal of the last step, as the scene tells it.
@@ -133,15 +95,12 @@ class Simulation {
   Scene scene_;
   Scales scales_;
   TimePlan plan_;
-  Walls walls_;
-  Extent extent_;                      ///< of the scene at its start
-  std::optional<TurningFrame> frame_;  ///< empty in a scene told in the laboratory
+  Setting setting_;
+  std::vector<Event> events_;
+  Extent extent_;  ///< of the scene at its start
   SimulationState state_;
   StartOverlaps start_overlaps_;
   std::unique_ptr<Stepper> stepper_;
-  std::optional<StepLaws>
-      stage_laws_;  ///< of the stage whose laws the stepper has; only where stages change any
-  int laws_of_stage_ = -1;
 };
 
 }  // namespace drumlin::particles

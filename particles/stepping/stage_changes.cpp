@@ -54,19 +54,16 @@ void Simulation::change_stage(const Stage& changed, const std::string& moved) {
   stage.duration_s = changed.duration_s, stage.turns = changed.turns;
   stage.gravity = changed.gravity, stage.effects = changed.effects, stage.motions = changed.motions;
   if (changes_gravity(scene_) && !state_.gravity) state_.gravity = scene_.effects.gravity;
-  laws_of_stage_ = -1;
-  if (moved.empty()) return;
-  walls_.reference = walls_of(scene_, scales_).reference;  // ends stay joined where walls move together
-  if (k != state_.stage) return;
-  const auto w = std::find(walls_.names.begin(), walls_.names.end(), moved) - walls_.names.begin();
-  const double t = state_.time_in_stage;
-  const Pose now = walls_.pose(static_cast<int>(w), t);
-  Walls begun = walls_;
-  begin_stage(begun, stage, scales_, t, state_.driven);
-  walls_.motions[w] = begun.motions[w];
-  walls_.pose_at_start[w] = {};
-  walls_.pose_at_start[w] = after(inverse(walls_.pose(static_cast<int>(w), t)), now);
-  state_.pose_at_start = walls_.pose_at_start;
+  const Walls& walls = setting_.walls;
+  const auto w = std::find(walls.names.begin(), walls.names.end(), moved) - walls.names.begin();
+  const bool goes_on = !moved.empty() && k == state_.stage;
+  const auto pose = [&] { return walls.pose(static_cast<int>(w), state_.time_in_stage); };
+  const Pose now = goes_on ? pose() : Pose{};
+  make_setting();  // ends stay joined where walls move together
+  if (!goes_on) return;
+  setting_.walls.pose_at_start[w] = {};
+  setting_.walls.pose_at_start[w] = after(inverse(pose()), now);
+  state_.pose_at_start = walls.pose_at_start;
 }
 
 void Simulation::set_velocities(std::span<const double> v_x, std::span<const double> v_z,
@@ -88,28 +85,12 @@ void Simulation::set_velocities(std::span<const double> v_x, std::span<const dou
   std::copy(spin.begin(), spin.end(), state_.bodies.spin.begin());
 }
 
-/// Between the steps, so that contacts and impulses of a step name the grains that were there.
-void Simulation::exchange() {
-  const auto shapes = walls_.shapes_at(state_.time_in_stage, state_.driven);
-  std::vector<EarlierPlaces> marks;
-  for (auto& mark : state_.marks) marks.push_back({mark.time, &mark.x, &mark.z});
-  const auto before = state_.left ? state_.bodies.id : std::vector<std::int64_t>();
-  exchange_grains({scene_, scales_, shapes, state_.time(), state_.step, stepper_->unknowns_per_contact()},
-                  {state_.bodies, state_.memory, *state_.traffic, std::move(marks)});
-  if (!state_.left || before == state_.bodies.id) return;
-  std::vector<std::uint8_t> keep;
-  for (const std::int64_t id : before)
-    keep.push_back(std::binary_search(state_.bodies.id.begin(), state_.bodies.id.end(), id));
-  keep_entries(keep, state_.left->has_left);
-  state_.left->has_left.resize(state_.bodies.count());
-}
-
 void Simulation::count_left() {
   const Bodies& bodies = state_.bodies;
   std::optional<Extent> now;
   for (std::size_t b = 0; b < bodies.count(); ++b) {
     if (!is_gone(extent_, bodies.x[b], bodies.z[b]) || (state_.left && state_.left->has_left[b])) continue;
-    if (!now) now = with_shapes(extent_, walls_.shapes_at(state_.time_in_stage, state_.driven));
+    if (!now) now = with_shapes(extent_, setting_.walls.shapes_at(state_.time_in_stage, state_.driven));
     if (!is_gone(*now, bodies.x[b], bodies.z[b])) continue;
     if (!state_.left)
       state_.left = {
@@ -120,23 +101,6 @@ void Simulation::count_left() {
       state_.left->first.push_back(
           {bodies.id.empty() ? static_cast<std::int64_t>(b) : bodies.id[b], state_.stage, state_.time()});
   }
-}
-
-Gravity Simulation::gravity_at(double time_in_stage) const {
-  const Stage& stage = scene_.stages[state_.stage];
-  return gravity_in_stage(stage.gravity, *state_.gravity, time_in_stage * scales_.time_s / duration_s(stage));
-}
-
-void Simulation::follow_stage(double time_step) {
-  if (laws_of_stage_ < 0 && !changes_gravity(scene_) && !any_stage(scene_, changes_coefficients)) return;
-  const Stage& stage = scene_.stages[state_.stage];
-  const bool entered = laws_of_stage_ != state_.stage;
-  if (!entered && !(stage.gravity && stage.gravity->ramp)) return;
-  if (entered) stage_laws_ = laws_in(scene_, scales_, stage);
-  laws_of_stage_ = state_.stage;
-  // That of the middle of the step: what a ramp gives in a step is exact.
-  if (state_.gravity) set_gravity(gravity_at(state_.time_in_stage + time_step / 2), scales_, *stage_laws_);
-  stepper_->follow(*stage_laws_);
 }
 
 void Simulation::end_stage_if_due() {
@@ -154,7 +118,7 @@ void Simulation::end_stage_if_due() {
     if (state_.rest_steps > 0 && rested >= until->at_rest->for_s * (1 - 1e-9)) by = EndedBy::rest;
   }
   if (!by && until && until->moved &&
-      has_moved(*until->moved, walls_, state_.time_in_stage, state_.driven, scales_))
+      has_moved(*until->moved, setting_.walls, state_.time_in_stage, state_.driven, scales_))
     by = EndedBy::wall;
   if (!by && until && until->out && has_taken(*until->out, scene_, *state_.traffic)) by = EndedBy::outlet;
   if (!by && state_.step_in_stage < plan_.stages[state_.stage].steps) return;
@@ -165,14 +129,15 @@ void Simulation::end_stage_if_due() {
 
 /// A step of length 0 begins an interval.
 void Simulation::add_wall_loads(double time_step) {
-  const auto shapes = walls_.shapes_at(state_.time_in_stage, state_.driven);
+  const auto shapes = setting_.walls.shapes_at(state_.time_in_stage, state_.driven);
   std::vector<double> angles;
-  for (std::size_t w = 0; w < walls_.names.size(); ++w)
-    angles.push_back(walls_.pose(static_cast<int>(w), state_.time_in_stage, state_.driven).angle);
+  for (std::size_t w = 0; w < setting_.walls.names.size(); ++w)
+    angles.push_back(setting_.walls.pose(static_cast<int>(w), state_.time_in_stage, state_.driven).angle);
   if (time_step == 0)
-    begin_interval(walls_, shapes, angles, *state_.loads);
+    begin_interval(setting_.walls, shapes, angles, *state_.loads);
   else
-    add_step(walls_, shapes, angles, stepper_->wall_contacts(), state_.bodies, time_step, *state_.loads);
+    add_step(setting_.walls, shapes, angles, stepper_->wall_contacts(), state_.bodies, time_step,
+             *state_.loads);
 }
 
 bool Simulation::wall_loads_due() const {

@@ -34,25 +34,4 @@ StepLaws laws_of(const Scene& scene, const Scales& scales) {
   return laws;
 }
 
-StepLaws laws_in(const Scene& scene, const Scales& scales, const Stage& stage) {
-  StepLaws laws = laws_of(scene, scales);
-  const auto materials = material_names(scene);
-  each_effect(
-      [&]<class E>(const std::optional<E>& effect, const auto& values, auto& law) {
-        if constexpr (HasPairs<E>) {
-          if (!values) return;
-          E keys = *effect;
-          static_cast<StageValues<E>&>(keys) = *values;
-          keys.pairs.clear();
-          law = law_of(keys, {scales, materials});
-        }
-      },
-      scene.effects, stage.effects, laws);
-  return laws;
-}
-
-void set_gravity(const Gravity& gravity, const Scales& scales, StepLaws& laws) {
-  laws.gravity = law_of(gravity, {scales, {}});
-}
-
 }  // namespace drumlin::particles

@@ -20,9 +20,5 @@ struct StepLaws : EffectsOf<LawOf> {
 
 /// The laws of a scene.
 StepLaws laws_of(const Scene& scene, const Scales& scales);
-/// The same in a stage, with its coefficients.
-StepLaws laws_in(const Scene& scene, const Scales& scales, const Stage& stage);
-/// Gives laws another gravity.
-void set_gravity(const Gravity& gravity, const Scales& scales, StepLaws& laws);
 
 }  // namespace drumlin::particles

@@ -45,7 +45,7 @@ void deform_cell(const StepInput& step, const MovingState& state, StepState<Prob
     if (s.energy) add_cell_work(kinetic_energy(state.bodies) - before, *state.energy);
   }
   move_cell(step.time_step, cell);
-  s.laws.period = period_of(cell);
+  state.laws.period = period_of(cell);
 }
 
 template <class Problem>
@@ -64,7 +64,7 @@ template <class Problem>
 Overlap project(const MovingState& state, WallStep& walls, std::optional<LostGrain>& lost,
                 StepState<Problem>& s) {
   const WorkMemory::Scope scope(&s.memory);
-  const StepLaws& laws = s.laws;
+  const StepLaws& laws = state.laws;
   const MovedContacts contacts{s.contacts.pairs, s.pair_bodies(), s.solution.impulses, Problem::dim,
                                s.problem.W.plan};
   const Crossings moved = s.crossings.undo(walls, laws.period, state.bodies);

@@ -17,7 +17,7 @@ inline constexpr int most_searches = 5;
 /// Velocities without contacts, attractions aside: their pairs are not known yet.
 template <class Problem>
 void move_freely(const StepInput& step, StepState<Problem>& s) {
-  set_free_motion(step.bodies, s.laws, step.time_step, s.loops(), s.free);
+  set_free_motion(step.bodies, step.laws, step.time_step, s.loops(), s.free);
   s.free.driven.clear();
   for (std::size_t k = 0; k < step.driven.size(); ++k)
     s.free.driven.push_back(free_velocity(step.walls.driven[k], step.driven[k], step.time_step) +
@@ -37,7 +37,7 @@ bool find_collided(const StepInput& step, StepState<Problem>& s) {
     const std::int32_t b = collided.grain;
     const double displacement =
         2 * step.time_step * std::hypot(s.free.x[b] - s.searched.x[b], s.free.z[b] - s.searched.z[b]);
-    if (displacement <= s.detection.displacement_bound(b) + s.laws.detection_margin) continue;
+    if (displacement <= s.detection.displacement_bound(b) + step.laws.detection_margin) continue;
     s.collided.push_back({b, displacement});
     s.searched.x[b] = s.free.x[b], s.searched.z[b] = s.free.z[b];
   }
@@ -106,13 +106,13 @@ void search(const StepInput& step, const MovingState& state, Stopwatch& watch, S
   s.detection.find(step.bodies, s.free.x, s.free.z, detection_input(step));
   s.warm_starts.find(state.memory, s.detection.candidates());
   report.detection_seconds += watch.lap();
-  if (s.laws.restitution) resolve_impacts(step, state, watch, report, s);
+  if (step.laws.restitution) resolve_impacts(step, state, watch, report, s);
   // In solve order only now: impacts may have brought more pairs together.
-  s.order.find(s.detection.candidates(), step.bodies, s.laws.period, s.problem.W.plan);
+  s.order.find(s.detection.candidates(), step.bodies, step.laws.period, s.problem.W.plan);
   take_candidates(step, s);
   s.warm_starts.warm_start(state.memory, Problem::dim, step.time_step, s.order.order(), s.solution.impulses);
   report.detection_seconds += watch.lap();
-  turn_freely(s.laws, step.time_step, state.bodies);
+  turn_freely(step.laws, step.time_step, state.bodies);
   report.setup_seconds += watch.lap();
 }
 

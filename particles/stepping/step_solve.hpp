@@ -45,7 +45,8 @@ void solve_pairs(const StepInput& step, ContactSolver<Problem> solver, Stopwatch
   assemble(step, s.contacts, s.loops(), s.problem);
   report.setup_seconds += watch.lap();
   report.contacts = s.problem.contacts();
-  const bool open = s.laws.period.open() && s.laws.period.open_z();  // else positions are those of images
+  const bool open =
+      step.laws.period.open() && step.laws.period.open_z();  // else positions are those of images
   s.work.places = open ? BodyPlaces{step.bodies.x, step.bodies.z} : BodyPlaces{};
   // Those that slid in the step before, whose impulses these are, go on.
   let_slide(
@@ -80,7 +81,7 @@ void take_in(const StepInput& step, std::span<const Candidate> missed, StepState
   std::inplace_merge(
       pairs.begin(), pairs.end() - missed.size(), pairs.end(),
       [](const Candidate& a, const Candidate& b) { return std::pair(a.i, a.j) < std::pair(b.i, b.j); });
-  s.order.find(pairs, step.bodies, s.laws.period, s.problem.W.plan);
+  s.order.find(pairs, step.bodies, step.laws.period, s.problem.W.plan);
   taken.resize(pairs.size());
   for (std::size_t a = 0; a < pairs.size(); ++a) taken[a] = pairs[s.order.order()[a]];
   s.warm_starts.find(solved, pairs);
@@ -92,7 +93,7 @@ template <class Problem>
 void solve(const StepInput& step, ContactSolver<Problem> solver, Stopwatch& watch, StepReport& report,
            StepState<Problem>& s) {
   solve_pairs(step, solver, watch, report, s);
-  const FreeMotion& searched = s.laws.restitution ? s.searched : s.free;
+  const FreeMotion& searched = step.laws.restitution ? s.searched : s.free;
   while (s.missed.find(s.end_of(step), searched, s.detection, s.contacts.pairs)) {
     take_in(step, s.missed.pairs(), s);
     solve_pairs(step, solver, watch, report, s);

@@ -24,8 +24,7 @@ template <class Problem>
 struct StepState {
   static constexpr bool spin = Problem::Delassus::spin;
 
-  StepState(const StepLaws& of_scene, const StepSolver& of_step)
-      : laws(of_scene), solver(of_step), pool(of_step.threads) {
+  StepState(const StepLaws& laws, const StepSolver& of_step) : solver(of_step), pool(of_step.threads) {
     work.pool = &pool, work.memory = &memory, work.world = solver.world;
     projection.use(solver.world);
     const auto share = [this](auto&... users) {
@@ -57,7 +56,6 @@ struct StepState {
             memory.bytes()};
   }
 
-  StepLaws laws;
   StepSolver solver;
   ThreadPool pool;
   WorkMemory memory;  ///< of one phase of a step after the other

@@ -86,13 +86,14 @@ Flow flow_of(const Scene& like, int discs, int steps, const std::filesystem::pat
 }
 
 Replay::Replay(const Flow& flow, const std::string& solver, int threads, const StoppingRule& rule)
-    : time_step_(flow.time_step),
+    : laws_(flow.laws),
+      time_step_(flow.time_step),
       stepper_(make_stepper(flow.laws, {solver, rule, {}, threads}, any_solvers(solver))) {}
 
 StepReport Replay::operator()(const FlowStep& step) {
   work_ = step;
   std::optional<EnergyLedger> no_ledger;
-  return stepper_->advance({work_.bodies, work_.memory, {}, no_ledger}, work_.walls, time_step_);
+  return stepper_->advance({laws_, work_.bodies, work_.memory, {}, no_ledger}, work_.walls, time_step_);
 }
 
 double peak_memory_mb(const Scene& like, int discs, const std::filesystem::path& cache) {

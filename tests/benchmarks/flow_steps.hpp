@@ -35,6 +35,7 @@ class Replay {
   particles::StepReport operator()(const FlowStep& step);
 
  private:
+  particles::StepLaws laws_;
   double time_step_;
   std::unique_ptr<particles::Stepper> stepper_;
   FlowStep work_;
