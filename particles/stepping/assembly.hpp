@@ -21,7 +21,7 @@ namespace drumlin::particles {
 /// of driven wall k.
 template <class OfDriven>
 Point wall_velocity(const StepInput& step, const Candidate& pair, OfDriven of_driven) {
-  const Point prescribed{pair.wall_v_x, pair.wall_v_z};
+  const Point prescribed = wall_velocity(pair);
   const std::int32_t k = driven_wall_of(step.walls, pair);
   if (k < 0) return prescribed;
   const Driven& wall = step.walls.driven[k];
@@ -30,10 +30,10 @@ Point wall_velocity(const StepInput& step, const Candidate& pair, OfDriven of_dr
 }
 
 /// Free velocity of i relative to j, or to the image of j that is nearest.
-inline Point relative_velocity(const Candidate& pair, std::span<const double> v_x,
-                               std::span<const double> v_z, const Point& wall) {
-  if (pair.j < 0) return {v_x[pair.i] - wall.x, v_z[pair.i] - wall.z};
-  return {v_x[pair.i] - v_x[pair.j] - pair.wall_v_x, v_z[pair.i] - v_z[pair.j] - pair.wall_v_z};
+template <class Motion>
+Point relative_velocity(const Candidate& pair, const Motion& motion, const Point& wall) {
+  if (pair.j < 0) return velocity(motion, pair.i) - wall;
+  return velocity(motion, pair.i) - velocity(motion, pair.j) - wall_velocity(pair);
 }
 
 /// Bodies of the problem: the grains, the fixed one that walls share, the driven walls or the cell.
@@ -69,13 +69,12 @@ void assemble_contact(const StepInput& step, const Candidate& pair, int a, Probl
   const Bodies& bodies = step.bodies;
   const auto of_driven = [&step](std::int32_t k) { return step.free.driven[k]; };
   const Point wall = wall_velocity(step, pair, of_driven);
-  const Point u = relative_velocity(pair, step.free.x, step.free.z, wall);
+  const Point u = relative_velocity(pair, step.free, wall);
   problem.q[dim * a] = normal_part(pair, u) + pair.gap / step.time_step;  // it may act before it touches
   const std::int32_t second = second_body(step, pair);
   if (problem.W.cell) {
     // As they are now: the normal is that of the position where they meet.
-    const Point arm =
-        laws.period.nearest(Point{bodies.x[pair.i] - bodies.x[pair.j], bodies.z[pair.i] - bodies.z[pair.j]});
+    const Point arm = laws.period.nearest(position(bodies, pair.i) - position(bodies, pair.j));
     problem.W.arm_x[a] = arm.x, problem.W.arm_z[a] = arm.z;
   }
   if constexpr (dim == 3) {
@@ -96,8 +95,7 @@ void assemble_contact(const StepInput& step, const Candidate& pair, int a, Probl
     };
     problem.q[dim * a + 1] = sliding(u);
     double* const mu = &problem.mu[Problem::Law::coefficients * a];
-    mu[0] =
-        step.friction(pair, [&] { return sliding(relative_velocity(pair, bodies.v_x, bodies.v_z, wall)); });
+    mu[0] = step.friction(pair, [&] { return sliding(relative_velocity(pair, bodies, wall)); });
     if constexpr (Problem::Law::coefficients == 2)
       each_law(laws, [&](const auto& law) {
         if constexpr (requires { law.coefficient(pair, step.materials()); })

@@ -20,8 +20,7 @@ inline void attract(const StepInput& step, FreeMotion& free, StepContacts& conta
         free.x[pair.i] -= change * pair.n_x, free.z[pair.i] -= change * pair.n_z;
         if (const std::int32_t k = driven_wall_of(step.walls, pair); k >= 0) {
           const Driven& wall = step.walls.driven[k];
-          free.driven[k] +=
-              pull * wall.inverse_mass * (pair.n_x * wall.direction.x + pair.n_z * wall.direction.z);
+          free.driven[k] += pull * wall.inverse_mass * normal_part(pair, wall.direction);
         }
         if (pair.j < 0) continue;
         const double back = pull * step.inverse_mass()[pair.j];

@@ -11,7 +11,7 @@ namespace drumlin::particles {
 /// Branch of a pair in a cell, from the centre of j, or of its image, to that of i.
 inline Point arm_of(const Bodies& bodies, std::int32_t i, std::int32_t j, double gap, Point normal) {
   const double length = bodies.radius[i] + bodies.radius[j] + gap;
-  return {length * normal.x, length * normal.z};
+  return length * normal;
 }
 
 /// Change of the rates of the cell that the impulses of a solved problem make.
@@ -28,8 +28,8 @@ inline void keep_impacts_of_cell(std::span<const ImpactImpulse> impacts, const B
   cell.struck_x = cell.struck_z = 0;
   for (const ImpactImpulse& s : impacts) {
     const Point arm = arm_of(bodies, s.i, s.j, 0, {s.n_x, s.n_z});
-    cell.struck_x += arm.x * (s.n_x * s.normal + s.n_z * s.tangential);
-    cell.struck_z += arm.z * (s.n_z * s.normal - s.n_x * s.tangential);
+    const Point impulse = with_parts({s.n_x, s.n_z}, s.normal, s.tangential);
+    cell.struck_x += arm.x * impulse.x, cell.struck_z += arm.z * impulse.z;
   }
 }
 

@@ -12,7 +12,7 @@ namespace drumlin::particles {
 /// and the grains do not follow their change: the part of the cell.
 template <class Problem>
 Point image_velocity(const Problem& problem, Point change, const Candidate& pair, std::size_t a) {
-  Point image{pair.wall_v_x, pair.wall_v_z};
+  Point image = wall_velocity(pair);
   if (problem.W.cell) {
     image.x -= change.x * problem.W.arm_x[a] / 2;
     image.z -= change.z * problem.W.arm_z[a] / 2;
@@ -62,8 +62,8 @@ void add_contact_work(const StepInput& step, const StepContacts& contacts, const
     Candidate pair = contacts.pairs[a];
     const Point of_j = pair.j < 0 ? wall_velocity(step, pair, of_driven)
                                   : image_velocity(problem, change, pair, a);  // beyond that of j itself
-    pair.wall_v_x = of_j.x, pair.wall_v_z = of_j.z;
-    const Point u = relative_velocity(pair, mean.v_x, mean.v_z, of_j);
+    set_wall_velocity(pair, of_j);
+    const Point u = relative_velocity(pair, mean, of_j);
     const double u_n = normal_part(pair, u);
     const auto [r_n, r_t, r_c] = parts_of<Problem>(solution.impulses, a);
     add_work(r_n * u_n, ledger.impacts, ledger);
@@ -82,10 +82,9 @@ void add_contact_work(const StepInput& step, const StepContacts& contacts, const
       }
     };
     each_effect(add_law_work, step.laws, ledger.effects);
-    if (pair.j >= 0 && of_j.x == 0 && of_j.z == 0) continue;
-    const double p_n = r_n - contacts.attraction_of(a);
-    const double p_x = pair.n_x * p_n + pair.n_z * r_t, p_z = pair.n_z * p_n - pair.n_x * r_t;
-    add_work(p_x * of_j.x + p_z * of_j.z, mover(ledger), ledger);
+    if (pair.j < 0 || !is_zero(of_j))
+      add_work(dot(with_parts(normal(pair), r_n - contacts.attraction_of(a), r_t), of_j), mover(ledger),
+               ledger);
   }
 }
 

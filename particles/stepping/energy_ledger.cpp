@@ -38,7 +38,7 @@ double StepEnergy::potential(const Bodies& bodies) const {
   if (!gravity_) return 0;
   double sum = 0;
   for (std::size_t b = 0; b < bodies.count(); ++b)
-    sum -= (gravity_->x * bodies.x[b] + gravity_->z * bodies.z[b]) / bodies.inverse_mass[b];
+    sum -= dot(*gravity_, position(bodies, b)) / bodies.inverse_mass[b];
   return sum;
 }
 
@@ -65,10 +65,10 @@ void StepEnergy::add_impacts(std::span<const CollidedGrain> collided, const Impa
 void StepEnergy::move(const Bodies& now, double h, EnergyLedger& ledger) {
   double fall = 0, late = 0;
   for (std::size_t b = 0; gravity_ && b < now.count(); ++b) {
-    const double m = 1 / now.inverse_mass[b], w_x = m * gravity_->x, w_z = m * gravity_->z;
-    const double moved = w_x * (now.x[b] - before_.x[b]) + w_z * (now.z[b] - before_.z[b]);
+    const Point weight = 1 / now.inverse_mass[b] * *gravity_;
+    const double moved = dot(weight, position(now, b) - position(before_, b));
     fall += moved;
-    late += h / 2 * (w_x * (before_.v_x[b] + now.v_x[b]) + w_z * (before_.v_z[b] + now.v_z[b])) - moved;
+    late += h / 2 * dot(weight, velocity(before_, b) + velocity(now, b)) - moved;
   }
   ledger.turnover += std::abs(fall);  // between potential and kinetic energy
   add_work(late, ledger.time_integration, ledger);
@@ -79,8 +79,7 @@ void StepEnergy::close(const Bodies& now, EnergyLedger& ledger) const {
   ledger.kinetic = kinetic_energy(now);
   double corrected = 0;
   for (std::size_t b = 0; gravity_ && b < now.count(); ++b)
-    corrected -= (gravity_->x * (now.x[b] - before_.x[b]) + gravity_->z * (now.z[b] - before_.z[b])) /
-                 now.inverse_mass[b];
+    corrected -= dot(*gravity_, position(now, b) - position(before_, b)) / now.inverse_mass[b];
   add_work(corrected, ledger.projection, ledger);
   ledger.potential = potential(now);
 }

@@ -18,14 +18,9 @@ constexpr int rough_sweeps = 10;
 constexpr int fewest_sweeps = 20, solved_contacts = 4000;
 
 /// Gives a body an impulse; `tangential` is its part that turns a grain.
-void move(ImpactBody& body, double p_x, double p_z, double tangential) {
-  if (body.along.x != 0 || body.along.z != 0) {
-    const double along = (p_x * body.along.x + p_z * body.along.z) * body.inverse_mass;
-    p_x = along * body.along.x, p_z = along * body.along.z;
-  } else {
-    p_x *= body.inverse_mass, p_z *= body.inverse_mass;
-  }
-  body.v_x += p_x, body.v_z += p_z;
+void move(ImpactBody& body, const Point& impulse, double tangential) {
+  body.v += body.is_wall() ? (dot(impulse, body.along) * body.inverse_mass) * body.along
+                           : body.inverse_mass * impulse;
   if (body.spins) body.rim -= surface_gain * body.inverse_mass * tangential;
 }
 
@@ -33,39 +28,40 @@ void move(ImpactBody& body, double p_x, double p_z, double tangential) {
 
 Point ImpactPass::velocity(const ImpactContact& c) const {
   const ImpactBody& I = bodies[c.i];
-  double x = I.v_x - c.wall.x + c.gain.x, z = I.v_z - c.wall.z + c.gain.z, rims = I.rim;
-  if (c.j >= 0) x -= bodies[c.j].v_x, z -= bodies[c.j].v_z, rims += bodies[c.j].rim;
-  return {c.n_x * x + c.n_z * z, c.n_z * x - c.n_x * z - rims};
+  Point u = I.v - c.wall + c.gain;
+  double rims = I.rim;
+  if (c.j >= 0) u -= bodies[c.j].v, rims += bodies[c.j].rim;
+  return {dot(c.n, u), across(c.n, u) - rims};
 }
 
 void ImpactPass::add(ImpactContact c) {
   const ImpactBody& I = bodies[c.i];
-  double x = I.before_x - c.wall.x + c.gain.x, z = I.before_z - c.wall.z + c.gain.z, rims = I.before_rim;
+  Point u = I.before - c.wall + c.gain;
+  double rims = I.before_rim;
   c.W_nn = c.W_tt = I.inverse_mass;
   bool spins = I.spins;
   if (c.j >= 0) {
     const ImpactBody& J = bodies[c.j];
-    x -= J.before_x, z -= J.before_z, rims += J.before_rim;
+    u -= J.before, rims += J.before_rim;
     spins = spins || J.spins;
-    if (J.along.x == 0 && J.along.z == 0) c.W_nn += J.inverse_mass, c.W_tt += J.inverse_mass;
+    if (!J.is_wall()) c.W_nn += J.inverse_mass, c.W_tt += J.inverse_mass;
   }
   if (spins) c.W_tt *= tangential_gain<true>;
   if (c.j >= 0) {
     const ImpactBody& J = bodies[c.j];
-    const double n = J.along.x * c.n_x + J.along.z * c.n_z, t = J.along.x * c.n_z - J.along.z * c.n_x;
+    const double n = dot(J.along, c.n), t = across(c.n, J.along);
     c.W_nn += n * n * J.inverse_mass;
     c.W_nt += n * t * J.inverse_mass;
     c.W_tt += t * t * J.inverse_mass;
   }
-  c.u_n = c.n_x * x + c.n_z * z;
-  c.u_t = c.n_z * x - c.n_x * z - rims;
+  c.u_n = dot(c.n, u), c.u_t = across(c.n, u) - rims;
   contacts.push_back(c);
 }
 
 void ImpactPass::push(const ImpactContact& c, double normal, double tangential) {
-  const double p_x = c.n_x * normal + c.n_z * tangential, p_z = c.n_z * normal - c.n_x * tangential;
-  move(bodies[c.i], p_x, p_z, tangential);
-  if (c.j >= 0) move(bodies[c.j], -p_x, -p_z, tangential);
+  const Point impulse = with_parts(c.n, normal, tangential);
+  move(bodies[c.i], impulse, tangential);
+  if (c.j >= 0) move(bodies[c.j], -1 * impulse, tangential);
 }
 
 /// Returns the largest change of a velocity by the impulse of its own contact.
@@ -185,13 +181,9 @@ void ImpactPass::add_work(ImpactWork& work) const {
     Point wall = c.wall;
     if (c.j >= 0) {
       const ImpactBody& J = bodies[c.j];
-      if (J.along.x != 0 || J.along.z != 0)
-        wall.x += (J.before_x + J.v_x) / 2, wall.z += (J.before_z + J.v_z) / 2;
+      if (J.is_wall()) wall += 0.5 * (J.before + J.v);
     }
-    if (wall.x == 0 && wall.z == 0) continue;
-    const double p_x = c.n_x * c.normal + c.n_z * c.tangential;
-    const double p_z = c.n_z * c.normal - c.n_x * c.tangential;
-    work.walls += p_x * wall.x + p_z * wall.z;
+    if (!is_zero(wall)) work.walls += dot(with_parts(c.n, c.normal, c.tangential), wall);
   }
 }
 

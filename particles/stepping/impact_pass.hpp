@@ -5,34 +5,34 @@
 #include <span>
 #include <vector>
 
-#include "particles/bodies/free_motion.hpp"
+#include "particles/bodies/vectors.hpp"
 
 namespace drumlin::particles {
 
 /// A grain, or a wall moved by a force, in a pass.
 struct ImpactBody {
-  std::int32_t body = 0;    ///< number in the step: grains, then walls moved by a force
-  double v_x = 0, v_z = 0;  ///< velocity; of a wall, along its direction alone
-  double rim = 0;           ///< radius times spin
+  std::int32_t body = 0;  ///< number in the step: grains, then walls moved by a force
+  Point v;                ///< velocity; of a wall, along its direction alone
+  double rim = 0;         ///< radius times spin
   double inverse_mass = 0;
   bool spins = false;  ///< turned by friction
   Point along;         ///< unit direction in which alone a wall moves; zero: a grain
-  double before_x = 0, before_z = 0, before_rim = 0;  ///< velocities at the beginning of the pass
-  PathShift shift;                                    ///< of a grain
-  int passes = 0;                                     ///< in which it took part
-  std::int32_t place = -1;                            ///< in the pass in hand; -1: not there
+  Point before;        ///< velocities at the beginning of the pass
+  double before_rim = 0;
+  PathShift shift;          ///< of a grain
+  int passes = 0;           ///< in which it took part
+  std::int32_t place = -1;  ///< in the pass in hand; -1: not there
 
   /// The shift of the path on which it goes on from a pass at a time.
-  PathShift shift_at(double time) const {
-    return {{shift.x + time * (before_x - v_x), shift.z + time * (before_z - v_z)}, time};
-  }
+  bool is_wall() const { return !is_zero(along); }
+  PathShift shift_at(double time) const { return {shift + time * (before - v), time}; }
 };
 
 /// A pair in a pass. Normal and tangent as in Candidate.
 struct ImpactContact {
   std::int32_t pair = 0;      ///< its number in the step
   std::int32_t i = 0, j = 0;  ///< positions of the bodies in the pass; j < 0: a wall that is not pushed
-  double n_x = 0, n_z = 0;
+  Point n;
   Point wall;  ///< prescribed velocity of the wall, or of the image of j against j
   Point gain;  ///< relative velocity that forces have added since the beginning of the step
   double e = 0, mu = 0;

@@ -49,7 +49,7 @@ Point Impacts::acceleration_of(std::int32_t body) const {
 
 Point Impacts::velocity_before(std::int32_t body) const {
   const StepInput& step = in_->step;
-  if (body < grains()) return {step.bodies.v_x[body], step.bodies.v_z[body]};
+  if (body < grains()) return particles::velocity(step.bodies, body);
   const std::int32_t wall = body - grains();
   return along({}, step.walls.driven[wall], step.driven[wall].velocity + in_->wall_jumps[wall]);
 }
@@ -57,8 +57,7 @@ Point Impacts::velocity_before(std::int32_t body) const {
 Point Impacts::velocity(std::int32_t body) const {
   if (place_[body] < 0) return velocity_before(body);
   const ImpactBody& taken = taken_[place_[body]];
-  const ImpactBody& now = taken.place < 0 ? taken : pass_.bodies[taken.place];
-  return {now.v_x, now.v_z};
+  return (taken.place < 0 ? taken : pass_.bodies[taken.place]).v;
 }
 
 int Impacts::passes_of(const Candidate& pair) const {
@@ -70,7 +69,7 @@ int Impacts::passes_of(const Candidate& pair) const {
 
 Point Impacts::prescribed_velocity(const Candidate& pair) const {
   const StepInput& step = in_->step;
-  const Point seen{pair.wall_v_x, pair.wall_v_z};
+  const Point seen = wall_velocity(pair);
   const std::int32_t k = driven_wall_of(step.walls, pair);
   if (k < 0) return seen;
   return along(seen, step.walls.driven[k],
@@ -83,8 +82,7 @@ PathShift Impacts::shift(std::int32_t body) const {
     const ImpactBody& taken = taken_[place_[body]];
     return taken.place < 0 ? taken.shift : pass_.bodies[taken.place].shift_at(pass_.time);
   }
-  const auto& shift = in_->step.free.shift;
-  return shift.empty() || body >= grains() ? PathShift{} : shift[body];
+  return body >= grains() ? PathShift{} : particles::shift(in_->step.free, body);
 }
 
 double Impacts::collided_at(const Candidate& pair) const {
@@ -98,20 +96,16 @@ PairPath Impacts::path_of(const Candidate& pair) const {
   const Point v_i = velocity(pair.i), of_i = shift(pair.i);
   if (pair.j >= 0) {
     const Point v_j = velocity(pair.j), of_j = shift(pair.j);
-    const double reach = bodies.radius[pair.i] + bodies.radius[pair.j], distance = reach + pair.gap;
-    return {{pair.n_x * distance + of_i.x - of_j.x, pair.n_z * distance + of_i.z - of_j.z},
-            {v_i.x - v_j.x - pair.wall_v_x, v_i.z - v_j.z - pair.wall_v_z},
-            reach};
+    const double reach = bodies.radius[pair.i] + bodies.radius[pair.j];
+    return {(reach + pair.gap) * normal(pair) + of_i - of_j, v_i - v_j - wall_velocity(pair), reach};
   }
   Candidate seen = pair;
   if (const std::int32_t wall = second_body_of(pair); wall >= 0) {
-    const Point v = velocity(wall), gain = acceleration_of(wall), given = prescribed_velocity(pair);
-    const double half = in_->step.time_step / 2;
-    seen.wall_v_x = given.x + v.x + half * gain.x, seen.wall_v_z = given.z + v.z + half * gain.z;
+    set_wall_velocity(
+        seen, prescribed_velocity(pair) + velocity(wall) + (in_->step.time_step / 2) * acceleration_of(wall));
   }
   PairPath path(in_->step, seen, v_i, {});
-  const auto& before = in_->step.free.shift;
-  path.move(before.empty() ? of_i : Point{of_i.x - before[pair.i].x, of_i.z - before[pair.i].z});
+  path.move(of_i - particles::shift(in_->step.free, pair.i));
   return path;
 }
 
@@ -175,10 +169,10 @@ bool Impacts::collides(std::int32_t a, const PairPath& path, const Surfaces& now
   const StepInput& step = in_->step;
   const Candidate& pair = in_->pairs[a];
   const Point u = path.velocity(time), g = step.laws.gravity.value_or(Point{});
-  const double u_n = now.n_x * u.x + now.n_z * u.z;
+  const double u_n = dot(now.normal, u);
   if (!(u_n < -slowest_)) return false;
   if (rests(a, u_n)) return false;
-  const double gain = step.time_step * std::abs(now.n_x * g.x + now.n_z * g.z);
+  const double gain = step.time_step * std::abs(dot(now.normal, g));
   if (-u_n > at_rest * gain) return true;
   return pair.j < 0 && -u_n > at_rest_alone * gain && (may_be_alone || is_alone(pair.i));
 }
@@ -227,13 +221,12 @@ std::int32_t Impacts::enter(std::int32_t body) {
     const StepInput& step = in_->step;
     ImpactBody taken;
     taken.body = body;
-    const Point v = velocity_before(body);
-    taken.v_x = v.x, taken.v_z = v.z;
+    taken.v = velocity_before(body);
     if (body < grains()) {
       taken.inverse_mass = step.bodies.inverse_mass[body];
       taken.spins = !step.bodies.spin.empty();
       if (taken.spins) taken.rim = step.bodies.radius[body] * step.bodies.spin[body];
-      if (!step.free.shift.empty()) taken.shift = step.free.shift[body];
+      taken.shift = particles::shift(step.free, body);
     } else {
       const Driven& wall = step.walls.driven[body - grains()];
       taken.inverse_mass = wall.inverse_mass;
@@ -246,7 +239,7 @@ std::int32_t Impacts::enter(std::int32_t body) {
   if (taken.place < 0) {
     pass_.bodies.push_back(taken);
     ImpactBody& now = pass_.bodies.back();
-    now.before_x = now.v_x, now.before_z = now.v_z, now.before_rim = now.rim;
+    now.before = now.v, now.before_rim = now.rim;
     taken.place = static_cast<std::int32_t>(pass_.bodies.size()) - 1;
   }
   return taken.place;
@@ -260,17 +253,16 @@ void Impacts::add(std::int32_t a, const Surfaces& now, double time) {
   contact.i = enter(pair.i);
   const std::int32_t second = second_body_of(pair);
   contact.j = second < 0 ? -1 : enter(second);
-  contact.n_x = now.n_x, contact.n_z = now.n_z;
+  contact.n = now.normal;
   contact.wall = prescribed_velocity(pair);
-  const Point of_i = acceleration_of(pair.i), of_j = second < 0 ? Point{} : acceleration_of(second);
-  contact.gain = {time * (of_i.x - of_j.x), time * (of_i.z - of_j.z)};
+  contact.gain = time * (acceleration_of(pair.i) - (second < 0 ? Point{} : acceleration_of(second)));
   contact.e = restitution_of(pair);
   if (step.laws.friction) {
     const auto sliding = [&] {
       const Point v = velocity(pair.i), w = second < 0 ? Point{} : velocity(second);
-      const Point u{v.x - w.x - contact.wall.x + contact.gain.x, v.z - w.z - contact.wall.z + contact.gain.z};
+      const Point u = v - w - contact.wall + contact.gain;
       const double rim_j = contact.j < 0 ? 0 : pass_.bodies[contact.j].rim;
-      return now.n_z * u.x - now.n_x * u.z - pass_.bodies[contact.i].rim - rim_j;
+      return across(now.normal, u) - pass_.bodies[contact.i].rim - rim_j;
     };
     contact.mu = step.sliding_friction(step.friction(pair, sliding), pair);
   }
@@ -300,7 +292,7 @@ void Impacts::list_impacts(StepContacts& contacts) {
     if (c.normal == 0) continue;
     ++count_;
     const Candidate& pair = in_->pairs[c.pair];
-    contacts.impacts.push_back({pair.i, pair.j, c.n_x, c.n_z, c.normal, c.tangential});
+    contacts.impacts.push_back({pair.i, pair.j, c.n.x, c.n.z, c.normal, c.tangential});
   }
 }
 
@@ -333,17 +325,16 @@ void Impacts::give_back(const ImpactOutput& output) {
   for (const ImpactBody& body : taken_) {
     place_[body.body] = -1;
     const Point before = velocity_before(body.body);
-    const Point change{body.v_x - before.x, body.v_z - before.z};
+    const Point change = body.v - before;
     if (const std::int32_t k = body.body - grains(); k >= 0) {
-      output.contacts.wall_jumps[k] += change.x * body.along.x + change.z * body.along.z;
+      output.contacts.wall_jumps[k] += dot(change, body.along);
       continue;
     }
     const std::int32_t b = body.body;
     PathShift& shift = output.shift[b];
-    CollidedGrain collided{b, change.x, change.z,
-                           0, before,   {body.shift.x - shift.x, body.shift.z - shift.z}};
+    CollidedGrain collided{b, change.x, change.z, 0, before, body.shift - shift};
     shift = body.shift;
-    bodies.v_x[b] = body.v_x, bodies.v_z[b] = body.v_z;
+    bodies.v_x[b] = body.v.x, bodies.v_z[b] = body.v.z;
     if (body.spins) {
       const double spin = body.rim / bodies.radius[b];
       collided.spin = spin - bodies.spin[b];
@@ -370,8 +361,7 @@ void Impacts::resolve(const ImpactInput& input, const ImpactOutput& output) {
   link();
   for (const std::int32_t a : closings_) {
     const Candidate& pair = in_->pairs[a];
-    const Point u = path_of(pair).velocity(0);
-    slowest_ = std::max(slowest_, -rounding * (pair.n_x * u.x + pair.n_z * u.z));
+    slowest_ = std::max(slowest_, -rounding * normal_part(pair, path_of(pair).velocity(0)));
   }
   for (const std::int32_t a : closings_) schedule(a, collided_at(in_->pairs[a]));
   while (!events_.empty()) {

@@ -11,7 +11,7 @@ namespace drumlin::particles {
 
 /// What the contact gives the grain, per unit of its mass, and where the step ends.
 struct LoneStep {
-  double n_x = 0, n_z = 0;  ///< normal halfway: impulses act along it and its tangent
+  Point n;  ///< normal halfway: impulses act along it and its tangent
   double normal = 0, tangential = 0;
   Point wall_velocity;  ///< of the surface, with that normal
   Point end;            ///< of the centre

@@ -29,8 +29,7 @@ void take_lone_steps(const StepInput& step, const ImpulseCache& memory, StepStat
     if (s.contacts.attraction_of(a) > 0) continue;
     const double w = step.inverse_mass()[pair.i];
     auto& change = s.solution.velocities.bodies[pair.i];
-    const Point other{change.x - w * (pair.n_x * r_n + pair.n_z * r_t),
-                      change.z - w * (pair.n_z * r_n - pair.n_x * r_t)};
+    const Point other = Point{change.x, change.z} - w * with_parts(normal(pair), r_n, r_t);
     if (std::hypot(other.x, other.z) > alone * w * r_n || !was_loaded(memory, pair)) continue;
     auto lone = lone_step(step, pair, mu);
     if (!lone) continue;
@@ -42,10 +41,10 @@ void take_lone_steps(const StepInput& step, const ImpulseCache& memory, StepStat
     impulses[dim * a] = r_n;
     if constexpr (dim >= 2) impulses[dim * a + 1] = r_t;
     if (r_n > 0) {
-      pair.n_x = lone->n_x, pair.n_z = lone->n_z;
-      pair.wall_v_x = lone->wall_velocity.x, pair.wall_v_z = lone->wall_velocity.z;
+      set_normal(pair, lone->n), set_wall_velocity(pair, lone->wall_velocity);
     }
-    change.x = w * (pair.n_x * r_n + pair.n_z * r_t), change.z = w * (pair.n_z * r_n - pair.n_x * r_t);
+    const Point of_wall = w * with_parts(normal(pair), r_n, r_t);
+    change.x = of_wall.x, change.z = of_wall.z;
     if constexpr (StepState<Problem>::spin) change.s = -surface_gain * w * r_t;
     if (r_n > 0) s.lone.push_back({pair.i, lone->end});
   }

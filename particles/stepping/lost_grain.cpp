@@ -31,10 +31,9 @@ bool has_left(const Shape& wall, double radius, double gap) {
 
 bool pushed_too_far(const Shape& wall, const Pose& step, Point grain, Point normal, double radius) {
   if (!std::holds_alternative<Segment>(wall) && !std::holds_alternative<Arc>(wall)) return false;
-  const Point touched{grain.x - radius * normal.x, grain.z - radius * normal.z};
-  const Point before = moved(inverse(step), touched);
+  const Point touched = grain - radius * normal;
   // Not a number either.
-  return !(std::abs((touched.x - before.x) * normal.x + (touched.z - before.z) * normal.z) <= radius);
+  return !(std::abs(dot(touched - moved(inverse(step), touched), normal)) <= radius);
 }
 
 std::optional<LostGrain> grain_that_is_not_finite(const Bodies& bodies) {
@@ -42,8 +41,8 @@ std::optional<LostGrain> grain_that_is_not_finite(const Bodies& bodies) {
   // One sum for all: it is finite only if every part is.
   const auto measure = [&](std::size_t b) {
     const double rim = with_spin ? bodies.radius[b] * bodies.spin[b] : 0;
-    return bodies.v_x[b] * bodies.v_x[b] + bodies.v_z[b] * bodies.v_z[b] + rim * rim + std::abs(bodies.x[b]) +
-           std::abs(bodies.z[b]);
+    const Point v = velocity(bodies, b);
+    return dot(v, v) + rim * rim + std::abs(bodies.x[b]) + std::abs(bodies.z[b]);
   };
   double sum = 0;
   for (std::size_t b = 0; b < bodies.count(); ++b) sum += measure(b);
@@ -58,9 +57,7 @@ std::optional<LostGrain> grain_that_is_not_finite(const Bodies& bodies) {
 
 std::optional<LostGrain> grain_too_fast(const Bodies& bodies, double time_step) {
   const double speed = longest_flight / time_step, most = speed * speed;
-  const auto square = [&](std::size_t b) {
-    return bodies.v_x[b] * bodies.v_x[b] + bodies.v_z[b] * bodies.v_z[b];
-  };
+  const auto square = [&](std::size_t b) { return dot(velocity(bodies, b), velocity(bodies, b)); };
   double fastest = 0;
   for (std::size_t b = 0; b < bodies.count(); ++b) fastest = std::max(fastest, square(b));
   if (!(fastest > most)) return std::nullopt;

@@ -3,8 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "particles/bodies/bodies.hpp"
-#include "particles/bodies/walls.hpp"
+#include "particles/bodies/vectors.hpp"
 
 namespace drumlin::particles {
 

@@ -11,7 +11,8 @@ namespace drumlin::particles {
 
 /// Surfaces of a pair against each other: gap, and unit normal from j to i.
 struct Surfaces {
-  double gap = 0, n_x = 0, n_z = 0;
+  double gap = 0;
+  Point normal;
 };
 
 /// The path of one side of a pair against the other, start + velocity t + acceleration t^2 / 2, from the
@@ -27,32 +28,23 @@ class PairPath {
   PairPath(const Point& start, const Point& velocity, double reach)
       : reach_(reach), start_(start), velocity_(velocity) {}
   /// Another beginning: i has been moved by `shift` against j.
-  void move(const Point& shift) { start_.x += shift.x, start_.z += shift.z; }
+  void move(const Point& shift) { start_ += shift; }
   /// Whether the surfaces of two discs part at a time.
-  bool parts(double time) const {
-    const Point u = velocity(time), d = displacement(time);
-    return (start_.x + d.x) * u.x + (start_.z + d.z) * u.z >= 0;
-  }
+  bool parts(double time) const { return dot(start_ + displacement(time), velocity(time)) >= 0; }
 
   Surfaces at(double time) const { return at_displacement(displacement(time)); }
   /// Somewhere else than on the path: so far from its beginning.
   Surfaces at_displacement(const Point& displacement) const;
   /// Velocity at a time.
-  Point velocity(double time) const {
-    return {velocity_.x + time * acceleration_.x, velocity_.z + time * acceleration_.z};
-  }
+  Point velocity(double time) const { return velocity_ + time * acceleration_; }
   /// Displacement up to a time.
-  Point displacement(double time) const {
-    return {time * (velocity_.x + time / 2 * acceleration_.x),
-            time * (velocity_.z + time / 2 * acceleration_.z)};
-  }
+  Point displacement(double time) const { return time * (velocity_ + time / 2 * acceleration_); }
   /// First time from `from` to `end` at which the surfaces meet and close; that itself where they touch then.
   std::optional<double> meeting(double from, double end) const;
   /// The time up to `end` at which bodies that meet do so, and others are nearest, on a straight path.
   double nearest(double end) const;
 
  private:
-  double closing(const Surfaces& s, double time) const;
   std::optional<double> disc_meeting(double from, double end) const;
 
   const Shape* shape_ = nullptr;  // none: discs, or a point, at `reach_` from the origin
@@ -66,7 +58,7 @@ bool stays_apart(const StepInput& step, const Candidate& pair);
 
 /// The velocity of the surface of a container, whose centre has a velocity, turns with the normal, from that
 /// of the pair to `now`; the pair takes both over.
-void turn_wall_velocity(const Surfaces& now, const Point& centre, Candidate& pair);
+void turn_wall_velocity(const Point& now, const Point& centre, Candidate& pair);
 
 /// Gives pairs the gaps and normals with which the contact problem of a step takes them: of pairs that meet
 /// within the step those of the position where they meet, of discs that pass each other those of where they

@@ -13,22 +13,22 @@ MovingArc::MovingArc(const WallStep& walls, std::size_t shape)
       middle_(middle_of(was_).x) {}
 
 WallPosition MovingArc::place_of(Point p) const {
-  return {angle_from_joint(was_, p), std::hypot(p.x - was_.center.x, p.z - was_.center.z) - was_.radius};
+  const Point c = p - was_.center;
+  return {angle_from_joint(was_, p), std::hypot(c.x, c.z) - was_.radius};
 }
 
 std::optional<WallPath> MovingArc::crossing_of(Point start, Point end, double image) const {
   const Point from{start.x + image, start.z}, to = back_.moved({end.x + image, end.z});
-  const Point c{from.x - was_.center.x, from.z - was_.center.z}, m{to.x - from.x, to.z - from.z};
-  const double along = c.x * m.x + c.z * m.z, squared = m.x * m.x + m.z * m.z;
-  const double under = along * along - squared * (c.x * c.x + c.z * c.z - was_.radius * was_.radius);
+  const Point c = from - was_.center, m = to - from;
+  const double along = dot(c, m), squared = dot(m, m);
+  const double under = along * along - squared * (dot(c, c) - was_.radius * was_.radius);
   if (!(under > 0) || !(squared > 0)) return std::nullopt;
   int crossings = 0;
   double first = 0;
   for (const double root : {-std::sqrt(under), std::sqrt(under)}) {
     const double share = (root - along) / squared;
     if (share < 0 || share > 1) continue;
-    const Point there{from.x + share * m.x, from.z + share * m.z};
-    const double angle = std::copysign(1, was_.turn) * angle_from_joint(was_, there);
+    const double angle = std::copysign(1, was_.turn) * angle_from_joint(was_, from + share * m);
     if (angle < -end_margin || angle > std::abs(was_.turn) + end_margin) continue;
     if (crossings++ == 0) first = share;
   }
@@ -49,9 +49,8 @@ Point MovingArc::put_back(const WallPath& path, double radius) const {
 }
 
 double MovingArc::move_across(const WallPath& path) const {
-  const Point p = at(was_, path.from.along), then = there_.moved(p);
-  return std::abs((then.x - p.x) * (p.x - was_.center.x) + (then.z - p.z) * (p.z - was_.center.z)) /
-         was_.radius;
+  const Point p = at(was_, path.from.along);
+  return std::abs(dot(there_.moved(p) - p, p - was_.center)) / was_.radius;
 }
 
 }  // namespace drumlin::particles

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "particles/bodies/vectors.hpp"
 #include "particles/detection/contact_list.hpp"
 
 namespace drumlin::particles {
@@ -25,15 +26,15 @@ class Overburden {
     const std::size_t grains = bodies.count();
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (std::size_t b = 0; b < grains; ++b) {
-      const double across = across_of(bodies.x[b], bodies.z[b]);
-      least = std::min(least, across), most = std::max(most, across);
+      const double beside = across(down_, position(bodies, b));
+      least = std::min(least, beside), most = std::max(most, beside);
     }
     first_ = least;
     width_ = std::max(column_width, (most - least) / static_cast<double>(grains));
     columns_.resize(static_cast<std::size_t>((most - least) / width_) + 1);
     for (std::size_t b = 0; b < grains; ++b)
-      columns_[column(across_of(bodies.x[b], bodies.z[b]))].push_back(
-          {depth_of(bodies.x[b], bodies.z[b]), 1 / bodies.inverse_mass[b]});
+      columns_[column(position(bodies, b))].push_back(
+          {dot(position(bodies, b), down_), 1 / bodies.inverse_mass[b]});
     for (auto& column : columns_) {
       std::sort(column.begin(), column.end());
       double above = 0;
@@ -45,17 +46,16 @@ class Overburden {
     }
   }
   /// Mass per width above a position.
-  double above(double x, double z) const {
-    const auto& in_column = columns_[column(across_of(x, z))];
-    const auto next = std::lower_bound(in_column.begin(), in_column.end(), std::pair(depth_of(x, z), 0.0));
+  double above(const Point& at) const {
+    const auto& in_column = columns_[column(at)];
+    const auto next = std::lower_bound(in_column.begin(), in_column.end(), std::pair(dot(at, down_), 0.0));
     return next == in_column.begin() ? 0 : std::prev(next)->second / width_;
   }
 
  private:
-  double depth_of(double x, double z) const { return x * down_.x + z * down_.z; }
-  double across_of(double x, double z) const { return x * down_.z - z * down_.x; }
-  std::size_t column(double across) const {
-    return std::min(columns_.size() - 1, static_cast<std::size_t>(std::max(0.0, (across - first_) / width_)));
+  std::size_t column(const Point& at) const {
+    return std::min(columns_.size() - 1,
+                    static_cast<std::size_t>(std::max(0.0, (across(down_, at) - first_) / width_)));
   }
   Point down_;
   double first_ = 0, width_ = column_width;
@@ -92,10 +92,9 @@ ImpulseCache impulses_under_weight(const Bodies& bodies, std::span<const Shape> 
     const Candidate& pair = pairs[a];
     const double reach =
         bodies.radius[pair.i] + (pair.j >= 0 ? bodies.radius[pair.j] : bodies.radius[pair.i]);
-    const double x = bodies.x[pair.i] - pair.n_x * bodies.radius[pair.i],
-                 z = bodies.z[pair.i] - pair.n_z * bodies.radius[pair.i];
+    const Point at = position(bodies, pair.i) - bodies.radius[pair.i] * Point{pair.n_x, pair.n_z};
     impulses[static_cast<std::size_t>(unknowns) * a] =
-        time_step * g * overburden.above(x, z) * per_pressure / reach;
+        time_step * g * overburden.above(at) * per_pressure / reach;
   }
   ImpulseCache memory{{}, {}, std::move(impulses), time_step};
   for (const Candidate& pair : pairs) memory.i.push_back(pair.i), memory.j.push_back(pair.j);

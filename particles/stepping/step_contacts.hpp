@@ -4,14 +4,18 @@
 #include <span>
 #include <vector>
 
-#include "particles/bodies/bodies.hpp"
-#include "particles/bodies/free_motion.hpp"
+#include "particles/bodies/vectors.hpp"
 #include "particles/detection/candidate.hpp"
 #include "particles/effects/moving_cell.hpp"
 #include "particles/effects/wall_step.hpp"
 #include "particles/stepping/step_laws.hpp"
 
 namespace drumlin::particles {
+
+inline Point normal(const Candidate& pair) { return {pair.n_x, pair.n_z}; }
+inline void set_normal(Candidate& pair, const Point& n) { pair.n_x = n.x, pair.n_z = n.z; }
+inline Point wall_velocity(const Candidate& pair) { return {pair.wall_v_x, pair.wall_v_z}; }
+inline void set_wall_velocity(Candidate& pair, const Point& v) { pair.wall_v_x = v.x, pair.wall_v_z = v.z; }
 
 /// An impact of a pair (i, j), in one pass (impacts.hpp): its normal, and its impulses.
 struct ImpactImpulse {

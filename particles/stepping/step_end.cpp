@@ -19,10 +19,8 @@ void find_flights(const StepEnd& end, std::span<const Candidate> pairs, const Pa
     for (const std::size_t a : of_flying) {
       const Candidate& pair = pairs[a];
       if (flies[pair.i] == flies[pair.j]) continue;
-      const Point d_i = end.displacement(pair.i, flies[pair.i]),
-                  d_j = end.displacement(pair.j, flies[pair.j]);
-      const double h = end.step.time_step;
-      const Point d{d_i.x - d_j.x - h * pair.wall_v_x, d_i.z - d_j.z - h * pair.wall_v_z};
+      const Point d = end.displacement(pair.i, flies[pair.i]) - end.displacement(pair.j, flies[pair.j]) -
+                      end.step.time_step * wall_velocity(pair);
       if (pair.gap + normal_part(pair, d) >= 0) continue;
       flies[pair.i] = flies[pair.j] = 0;
       again = true;
@@ -39,9 +37,8 @@ bool MissedPairs::find_thrown(const StepEnd& end, const FreeMotion& searched,
   is_thrown_.assign(end.step.bodies.count(), 0);
   for (std::size_t b = 0; b < is_thrown_.size(); ++b) {
     const double allowed = (margin + detection.displacement_bound(static_cast<std::int32_t>(b))) / 2;
-    const Point shift = end.shift(b), d = end.displacement(b, false);
-    const double x = shift.x + d.x - h * searched.x[b], z = shift.z + d.z - h * searched.z[b];
-    is_thrown_[b] = x * x + z * z > allowed * allowed;
+    const Point beyond = end.shift(b) + end.displacement(b, false) - h * velocity(searched, b);
+    is_thrown_[b] = dot(beyond, beyond) > allowed * allowed;
     any |= is_thrown_[b] != 0;
   }
   return any;
@@ -59,18 +56,16 @@ bool MissedPairs::find(const StepEnd& end, const FreeMotion& searched, const Con
   };
   for (const ListedPair& pair : detection.listed_pairs()) {
     if (!(is_thrown_[pair.i] | is_thrown_[pair.j])) continue;
-    const Point whole{bodies.x[pair.i] - bodies.x[pair.j], bodies.z[pair.i] - bodies.z[pair.j]};
-    const Point d = period.nearest(whole), image = period.image_velocity({whole.x - d.x, whole.z - d.z});
+    const Point whole = position(bodies, pair.i) - position(bodies, pair.j);
+    const Point d = period.nearest(whole), image = period.image_velocity(whole - d);
     const double reach = bodies.radius[pair.i] + bodies.radius[pair.j];
     Candidate found{pair.i, pair.j, 0, 0, 0, image.x, image.z};
     found.gap = normal_of(d.x, d.z, found.n_x, found.n_z) - reach;
     // Those below the margin are among the pairs; which of those beyond are listed depends on the list's age.
     if (found.gap < end.step.laws.detection_margin || found.gap >= detection.listed_within()) continue;
-    const Point from_i = end.shift(pair.i), from_j = end.shift(pair.j);
-    const Point d_i = end.displacement(pair.i, false), d_j = end.displacement(pair.j, false);
-    const double x = d.x + from_i.x - from_j.x + d_i.x - d_j.x - end.step.time_step * image.x;
-    const double z = d.z + from_i.z - from_j.z + d_i.z - d_j.z - end.step.time_step * image.z;
-    if (x * x + z * z < reach * reach && !known(pair)) missed_.push_back(found);
+    const Point then = d + end.shift(pair.i) - end.shift(pair.j) + end.displacement(pair.i, false) -
+                       end.displacement(pair.j, false) - end.step.time_step * image;
+    if (dot(then, then) < reach * reach && !known(pair)) missed_.push_back(found);
   }
   return !missed_.empty();
 }

@@ -21,18 +21,17 @@ struct StepEnd {
   }
   /// Velocity of a grain at the end.
   Point velocity(std::size_t b) const {
-    const Point v{step.free.x[b], step.free.z[b]};
-    return is_pushed(b) ? Point{v.x + changes[b].x, v.z + changes[b].z} : v;
+    const Point free = particles::velocity(step.free, b);
+    return is_pushed(b) ? free + Point{changes[b].x, changes[b].z} : free;
   }
   /// Displacement of a grain from where its path begins: with the velocity at the end where contacts act,
   /// which leaves no overlap; with the mean of a grain that flies, which is exact.
   Point displacement(std::size_t b, bool flies) const {
-    Point v = velocity(b);
-    if (flies) v = {(step.bodies.v_x[b] + v.x) / 2, (step.bodies.v_z[b] + v.z) / 2};
-    return {step.time_step * v.x, step.time_step * v.z};
+    const Point v = velocity(b);
+    return step.time_step * (flies ? 0.5 * (particles::velocity(step.bodies, b) + v) : v);
   }
   /// From its position at the beginning to where its path begins.
-  Point shift(std::size_t b) const { return step.free.shift.empty() ? Point{} : Point(step.free.shift[b]); }
+  Point shift(std::size_t b) const { return particles::shift(step.free, b); }
 };
 
 /// Sets `flies` of each grain: those that no contact pushes, and whose flight does not end in a pushed one.

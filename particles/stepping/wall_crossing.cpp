@@ -23,9 +23,8 @@ class MovingSegment {
         step_(walls.displacement[shape]),
         there_(step_),
         back_(inverse(step_)),
-        e_x_(was_.to.x - was_.from.x),
-        e_z_(was_.to.z - was_.from.z),
-        length_(std::hypot(e_x_, e_z_)),
+        e_(was_.to - was_.from),
+        length_(std::hypot(e_.x, e_.z)),
         middle_(middle_of(was_).x) {}
 
   /// The path from `start` to `end` if it crosses the segment.
@@ -36,9 +35,7 @@ class MovingSegment {
 
   /// The disc of a path laid onto the side that it came from.
   Point put_back(const WallPath& path, double radius) const {
-    const double across = std::copysign(radius, path.from.across) / length_;
-    const Point place = there_.moved({was_.from.x + path.to.along * e_x_ - across * e_z_,
-                                      was_.from.z + path.to.along * e_z_ + across * e_x_});
+    const Point place = there_.moved(point_at({path.to.along, std::copysign(radius, path.from.across)}));
     return {place.x - path.image, place.z};
   }
 
@@ -47,10 +44,8 @@ class MovingSegment {
 
   /// How far the segment moves across itself where a path begins.
   double move_across(const WallPath& path) const {
-    const Point p{was_.from.x + path.from.along * e_x_ - path.from.across / length_ * e_z_,
-                  was_.from.z + path.from.along * e_z_ + path.from.across / length_ * e_x_};
-    const Point then = there_.moved(p);
-    return std::abs(e_x_ * (then.z - p.z) - e_z_ * (then.x - p.x)) / length_;
+    const Point p = point_at(path.from);
+    return std::abs(across(e_, there_.moved(p) - p)) / length_;
   }
 
   bool meets(std::size_t grain) const { return step_.meets(static_cast<std::int32_t>(grain)); }
@@ -66,14 +61,18 @@ class MovingSegment {
     return path;
   }
   WallPosition place_of(Point p) const {
-    const double d_x = p.x - was_.from.x, d_z = p.z - was_.from.z;
-    return {(d_x * e_x_ + d_z * e_z_) / (length_ * length_), (e_x_ * d_z - e_z_ * d_x) / length_};
+    const Point d = p - was_.from;
+    return {dot(d, e_) / (length_ * length_), across(d, e_) / length_};
+  }
+  Point point_at(const WallPosition& at) const {
+    return was_.from + at.along * e_ + at.across / length_ * Point{-e_.z, e_.x};
   }
 
   Segment was_;
   ShapeStep step_;
   Rigid there_, back_;
-  double e_x_, e_z_, length_, middle_;
+  Point e_;
+  double length_, middle_;
 };
 
 /// A thin wall over a step.
@@ -215,7 +214,7 @@ void WallCrossings::undo_at_thin_walls(const WallStep& walls, const Period& peri
   auto near = loops_.combined<NearWalls>(bodies.count(), [&](std::size_t begin, std::size_t end) {
     NearWalls some;
     for (std::size_t b = begin; b < end; ++b)
-      some.looked_at += tree_.each_near({bodies.x[b], bodies.z[b]}, 0,
+      some.looked_at += tree_.each_near(position(bodies, b), 0,
                                         [&](std::size_t k) { some.list.emplace_back(thin_[k], b); });
     return some;
   });
@@ -226,7 +225,7 @@ void WallCrossings::undo_at_thin_walls(const WallStep& walls, const Period& peri
   for (std::size_t k = 0; k < near.list.size(); ++k) {
     const auto [shape, b] = near.list[k];
     if (k == 0 || shape != near.list[k - 1].first) wall.emplace(moving_wall(walls, shape));
-    if (crossing(*wall, b, {x_[b], z_[b]}, {bodies.x[b], bodies.z[b]}, period)) crossed_.push_back(b);
+    if (crossing(*wall, b, {x_[b], z_[b]}, position(bodies, b), period)) crossed_.push_back(b);
   }
   std::sort(crossed_.begin(), crossed_.end());
   crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
@@ -241,7 +240,7 @@ void WallCrossings::put_back(const WallStep& walls, const Period& period, std::s
   };
   const double radius = bodies.radius[b];
   for (int attempt = 0;; ++attempt) {
-    const Point end{bodies.x[b], bodies.z[b]};
+    const Point end = position(bodies, b);
     // Laid back, it may be further from its start than any was: the path, and its bend, are longer.
     const double longer = std::max(std::abs(end.x - start.x), std::abs(end.z - start.z)) - furthest_;
     std::vector<std::size_t> shapes;

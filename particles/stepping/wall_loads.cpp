@@ -1,6 +1,7 @@
 #include "particles/stepping/wall_loads.hpp"
 
 #include "particles/bodies/period.hpp"
+#include "particles/bodies/vectors.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -12,14 +13,12 @@ WallPlace place_of(const Walls& walls, std::size_t wall, std::span<const Shape> 
 }
 
 void add_contact(const WallContact& contact, const Bodies& bodies, const Period& period, WallLoad& load) {
-  const double f_x = -(contact.n_x * contact.normal + contact.n_z * contact.tangential);
-  const double f_z = -(contact.n_z * contact.normal - contact.n_x * contact.tangential);
+  const Point n{contact.n_x, contact.n_z}, p = -1 * with_parts(n, contact.normal, contact.tangential);
   const double radius = bodies.radius[contact.i];
-  const double x = period.nearest(bodies.x[contact.i] - radius * contact.n_x - load.last.x);
-  const double z = bodies.z[contact.i] - radius * contact.n_z - load.last.z;
-  load.impulse_x += f_x;
-  load.impulse_z += f_z;
-  load.moment += f_x * z - f_z * x - radius * contact.couple;
+  Point at = position(bodies, contact.i) - radius * n - Point{load.last.x, load.last.z};
+  at.x = period.nearest(at.x);
+  load.impulse_x += p.x, load.impulse_z += p.z;
+  load.moment += across(at, p) - radius * contact.couple;
 }
 
 }  // namespace

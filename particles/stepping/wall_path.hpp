@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "particles/bodies/period.hpp"
-#include "particles/bodies/walls.hpp"
+#include "particles/bodies/vectors.hpp"
 
 namespace drumlin::particles {
 
