@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 
@@ -12,9 +11,9 @@
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/basics/run_status.hpp"
-#include "coupling/core/documents/json_document.hpp"
 #include "coupling/core/files/folder_lock.hpp"
 #include "coupling/core/files/manifest.hpp"
+#include "coupling/core/results/run_records.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -60,9 +59,7 @@ std::string checked_reason(const std::string& reason) {
 Manifest first_manifest(const fs::path& folder, const std::string& command) {
   Manifest manifest{.command = command, .complete = true, .accepted = {}, .files = {}};
   if (command == "run")
-    manifest.complete =
-        enumerator<RunStatus>(read_json(folder / "run.json", "drumlin-run-1").value("status", "")) ==
-        RunStatus::finished;
+    manifest.complete = read_record<RunRecord>(folder / "run.json").status == name_of(RunStatus::finished);
   else if (command == "flow" || command == "import")
     manifest.complete = fs::exists(folder / (command == "flow" ? "flow.json" : "run.json"));
   for (const std::string& name : files_below(folder))

@@ -7,11 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "apps/json/json_file.hpp"
+#include "apps/json/records.hpp"
 #include "apps/output/paper_data.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/documents/json_numbers.hpp"
-#include "coupling/core/documents/json_shape.hpp"
 #include "coupling/core/files/input_file.hpp"
 #include "coupling/core/statistics/setting_error.hpp"
 #include "particles/scene/physics.hpp"
@@ -25,7 +24,6 @@ using Json = nlohmann::ordered_json;
 using Point = AccuracyRecord::Point;
 using Series = std::vector<const Point*>;
 
-constexpr const char *convergence_format = "drumlin-convergence-1", *cost_format = "drumlin-cost-1";
 constexpr double missed_tolerance = 0.5;  // a point of which more steps missed it is none of that tolerance
 
 enum Setting : std::size_t { tolerance, step };
@@ -35,20 +33,19 @@ constexpr std::array<const char*, 2> keys{"solver.tolerance", "time_step_s"};
 // left early may err with a lower one.
 const std::array<std::vector<double>, 2> powers{{{1, 0.5}, {1}}};
 
-std::optional<double> number(const Json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
-}
-
-void add_point(AccuracyRecord& record, const Json& settings, const Json& results, const Json& scalars) {
-  const auto tolerance = number(settings, "tolerance"), step = number(settings, "step_s"),
-             seconds = number(results, "cpu_seconds");
-  if (!tolerance || !step || !seconds || number(results, "missed_share").value_or(0) > missed_tolerance)
+void add_point(AccuracyRecord& record, const OrNull<double>& tolerance, const OrNull<double>& step_s,
+               const auto& run, const Json& scalars) {
+  if (!tolerance.value || !step_s.value || !run.cpu_seconds.value ||
+      run.missed_share.value.value_or(0) > missed_tolerance)
     return;
-  Point point{{*tolerance, *step}, *seconds, {}};
-  for (const auto& [name, value] : scalars.items())
-    if (value.is_object() && number(value, "value"))
-      point.scalars.scalars.push_back({name, *number(value, "value"), number(value, "ci99")});
+  Point point{{*tolerance.value, *step_s.value}, *run.cpu_seconds.value, {}};
+  const auto number = [](const Json& object, const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
+  };
+  for (const auto& [name, scalar] : scalars.items())
+    if (const auto value = number(scalar, "value"))
+      point.scalars.scalars.push_back({name, *value, number(scalar, "ci99")});
   record.points.push_back(std::move(point));
 }
 
@@ -66,26 +63,29 @@ struct PhysicsRecord {
 std::optional<PhysicsRecord> record_in(const fs::path& file) {
   const std::string text = input_text(file);
   // Most files of the folder are of other formats, and large: they are not parsed.
-  if (text.find(convergence_format) == text.npos && text.find(cost_format) == text.npos) return std::nullopt;
-  if (!Json::accept(text)) return std::nullopt;
-  const Json json = parse_json(text, file.string());
-  if (!json.is_object() || !json.contains("format") || !json["format"].is_string()) return std::nullopt;
-  const std::string format = json["format"];
-  const bool convergence = format == convergence_format;
-  if (!(convergence || format == cost_format) || !json.contains("scene")) return std::nullopt;
-  if (const auto problems = type_problems(file, json, format); !problems.empty()) throw InputError(problems);
-  if (!convergence && json.value("kind", "") != "particles") return std::nullopt;
+  const auto mentions = [&](const char* format) { return text.find(format) != text.npos; };
+  if (!mentions(ConvergenceRecord::format) && !mentions(CostRecord::format)) return std::nullopt;
+  const Json json = Json::parse(text, nullptr, false);
+  const Json format = json.is_object() ? json.value("format", Json()) : Json();
   PhysicsRecord record{{file.filename().string(), {}}, {}};
-  record.physics = physics_text(particles::parse_scene(json.at("scene").get<std::string>(), file.string()));
-  if (convergence) {
-    for (const auto& [name, settings] : json.at("settings").items())
-      if (!settings.value("another_scene", false)) add_point(record.runs, settings, settings, settings);
-  } else {
-    for (const Json& point : json.at("points"))
-      if (point.contains("statistics"))
-        add_point(record.runs, point, point.at("statistics"), point.at("statistics").at("scalars"));
+  std::optional<std::string> scene;
+  if (format == ConvergenceRecord::format) {
+    const auto found = read_record<ConvergenceRecord>(file);
+    scene = found.scene;
+    for (const auto& [name, run] : found.settings)
+      if (!run.another_scene.value_or(false))
+        add_point(record.runs, run.tolerance, run.step_s, run, json["settings"][name]);
+  } else if (format == CostRecord::format) {
+    const auto found = read_record<CostRecord>(file);
+    if (found.kind == "particles") scene = found.scene;
+    for (const CostRowRecord& point : found.points)
+      if (point.statistics)
+        add_point(record.runs, point.tolerance, point.step_s, *point.statistics,
+                  point.statistics->scalars.json);
   }
-  return record.runs.points.empty() ? std::nullopt : std::optional(std::move(record));
+  if (!scene || record.runs.points.empty()) return std::nullopt;
+  record.physics = physics_text(particles::parse_scene(*scene, file.string()));
+  return record;
 }
 
 bool alike(double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b); }

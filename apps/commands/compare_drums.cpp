@@ -1,6 +1,7 @@
 // The report of `drumlin compare` on two runs of one drum.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/compare_overlays.hpp"
@@ -64,24 +65,25 @@ std::vector<FigureScript> figures_of(const ComparedRuns& runs, const fs::path& o
   return figures;
 }
 
-std::string short_number(const Json& value) {
-  return value.is_number() ? fmt::format("{:.3g}", value.get<double>()) : value.dump();
+std::string short_number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.3g}", value) : "null";
 }
 
-std::string target_summary(const Json& content) {
+std::string target_summary(const Json& content, const std::vector<coupling::Target>& targets) {
   const Json& counts = content["verdict"];
   std::string text = fmt::format(
       "{}\ntargets: {} met, {} missed, {} not measured; {} judged by the noise floor, the "
       "others by their limits\n",
       content["title"].get<std::string>(), counts["met"].get<int>(), counts["missed"].get<int>(),
       counts["not_measured"].get<int>(), counts["by_noise_floor"].get<int>());
-  for (const auto& target : content["targets"])
-    if (target["outcome"] == "missed")
-      text += fmt::format("  missed: {} {}: {} ({} {} {}) {}\n", target["quantity"].get<std::string>(),
-                          target.value("zone", std::string()), short_number(target["value"]),
-                          target["judged_by"].get<std::string>(),
-                          short_number(target.value("noise_floor", target["limit"])),
-                          target["measure"].get<std::string>(), target.value("remark", std::string()));
+  for (const auto& target : targets)
+    if (target.outcome == coupling::Outcome::missed)
+      text +=
+          fmt::format("  missed: {} {}: {} ({} {} {}) {}\n", target.quantity, target.zone,
+                      short_number(target.value), name_of(target.judged_by),
+                      short_number(target.judged_by == coupling::JudgedBy::noise_floor ? target.noise_floor
+                                                                                       : target.limit),
+                      target.measure, target.remark);
   if (content.contains("beside"))
     text += fmt::format("  beside it, {}: {} met, {} missed\n", content["beside"]["name"].get<std::string>(),
                         content["beside"]["verdict"]["met"].get<int>(),
@@ -110,7 +112,7 @@ ComparisonReport drum_report(const ComparedRuns& runs, const CompareOptions& opt
     if (floor) judge_by_floor(beside.targets, floor->targets);
     add_beside(*report.content, *runs.beside, beside.targets);
   }
-  report.summary = target_summary(*report.content);
+  report.summary = target_summary(*report.content, comparison.targets);
   report.write_overlays = [&runs, comparison](const fs::path& folder) {
     write_overlays(folder, runs.first.compared, runs.second.compared, comparison);
   };

@@ -11,6 +11,7 @@
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/hdf5/field_map_file.hpp"
 #include "coupling/core/results/run_checks.hpp"
+#include "coupling/core/results/run_records.hpp"
 #include "particles/io/snapshot_file.hpp"
 
 namespace drumlin::apps {
@@ -97,13 +98,13 @@ void require_same_scales(const LoadedSide& first, const LoadedSide& second) {
 }
 
 Json records_of(const LoadedSide& side) {
-  const auto record = [&](const fs::path& file, const char* format) {
-    return fs::exists(file) ? read_json(file, format) : Json();
+  const auto record = [&]<class T>(const char* name, T) {
+    const fs::path file = side.folder / name;
+    return fs::exists(file) ? read_json<T>(file) : Json();
   };
-  if (side.kind == RunSide::continuum)
-    return {{"flow", record(side.folder / "flow.json", "drumlin-flow-run-2")}};
-  return {{"run", record(side.folder / "run.json", "drumlin-run-1")},
-          {"measured", record(side.folder / "measured" / "measured.json", "drumlin-measured-1")}};
+  if (side.kind == RunSide::continuum) return {{"flow", record("flow.json", FlowRecord())}};
+  return {{"run", record("run.json", RunRecord())},
+          {"measured", record("measured/measured.json", MeasuredRecord())}};
 }
 
 }  // namespace drumlin::apps

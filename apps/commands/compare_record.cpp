@@ -78,7 +78,7 @@ void add_origins(Json& content, const ComparedRuns& runs) {
   content["continuum"] = origin_of(runs.second);
   content["floor"] =
       runs.floor ? Json{{"name", runs.floor->name}, {"kind", name_of(runs.floor->kind)}} : Json();
-  content["provenance"] = to_json(provenance());
+  content["provenance"] = provenance();
   std::vector<std::string> edits = runs.first.accepted;
   edits.insert(edits.end(), runs.second.accepted.begin(), runs.second.accepted.end());
   for (const auto* another : {&runs.floor, &runs.beside})

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "apps/process/interruption.hpp"
@@ -84,15 +83,6 @@ std::unique_ptr<particles::Simulation> simulation_in(const fs::path& run, bool g
 }
 
 }  // namespace
-
-nlohmann::ordered_json to_json(const std::vector<RankCosts>& ranks) {
-  auto all = nlohmann::ordered_json::array();
-  for (const RankCosts& rank : ranks)
-    all.push_back({{"cpu_seconds", rank.cpu_seconds},
-                   {"waiting_seconds", rank.waiting_seconds},
-                   {"peak_memory_mb", rank.peak_memory_mb}});
-  return all;
-}
 
 void Followers::begin(const fs::path& run, bool goes_on, int threads,
                       const particles::Simulation& simulation) const {

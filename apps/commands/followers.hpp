@@ -3,9 +3,9 @@
 // it and do their shares of its steps (docs/decisions.md).
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
+#include "coupling/core/documents/described.hpp"
 #include "particles/parallel/world.hpp"
 #include "particles/stepping/simulation.hpp"
 
@@ -15,7 +15,7 @@ namespace drumlin::apps {
 struct RankCosts {
   double cpu_seconds = 0, waiting_seconds = 0, peak_memory_mb = 0;
 };
-nlohmann::ordered_json to_json(const std::vector<RankCosts>& ranks);
+DRUMLIN_DESCRIBED(RankCosts, cpu_seconds, waiting_seconds, peak_memory_mb)
 
 /// The ranks beside the first one, as that sees them. Without a world there are none, and nothing is done.
 class Followers {

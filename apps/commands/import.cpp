@@ -14,6 +14,7 @@
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/basics/run_status.hpp"
 #include "coupling/core/files/text_file.hpp"
+#include "coupling/core/results/run_records.hpp"
 #include "particles/import/description.hpp"
 
 namespace drumlin::apps {
@@ -43,22 +44,23 @@ struct ImportOptions {
 std::vector<std::string> texts_of(const std::vector<fs::path>& files) { return {files.begin(), files.end()}; }
 
 /// `report`: of importing/command.py.
-Json report_of(const particles::ImportDescription& description, const fs::path& file, const Json& files,
-               const Json& report) {
+RunRecord record_of(const particles::ImportDescription& description, const fs::path& file, const Json& files,
+                    const Json& report) {
   Json from{{"description", file.filename().string()}, {"kind", report.at("kind")}, {"files", files}};
   for (const char* key : {"unused_columns", "left_out", "with_spin", "with_contacts"})
     from[key] = report.at(key);
-  return {{"format", "drumlin-run-1"},
-          {"title", description.title},
-          {"reduced", description.reduced},
-          {"status", name_of(RunStatus::finished)},
-          {"imported", true},
-          {"imported_from", from},
-          {"grains", report.at("grains")},
-          {"snapshots", report.at("snapshots")},
-          {"simulated_seconds", report.at("last_time_s")},
-          {"scales", report.at("scales")},
-          {"provenance", to_json(provenance())}};
+  RunRecord record;
+  record.title.json = description.title;
+  record.reduced = description.reduced;
+  record.status = name_of(RunStatus::finished);
+  record.imported = true;
+  record.imported_from.json = from;
+  record.grains = report.at("grains").get<std::int64_t>();
+  record.snapshots = report.at("snapshots").get<std::int64_t>();
+  record.simulated_seconds = report.at("last_time_s").get<double>();
+  record.scales.json = report.at("scales");
+  record.provenance.json = provenance();
+  return record;
 }
 
 std::string summary_of(const fs::path& run, const particles::ImportDescription& description,
@@ -130,7 +132,7 @@ int import_foreign(const ImportOptions& options) {
       return so_far.empty() ? given : Json::object();
     });
     progress.finish();
-    write_json(made / "run.json", report_of(description, *options.description, names, report));
+    write_json(made / "run.json", record_of(description, *options.description, names, report));
     return {summary_of(run, description, report)};
   });
 }

@@ -37,7 +37,7 @@ int plot(const PlotOptions& options) {
   const fs::path folder = options.output.value_or(options.run / "plots");
   return make_results(results_of(options, "plot", folder, "plots.json"), [&](Results& results) -> Made {
     const particles::RunFolder run = particles::read_run_folder(options.run);
-    const Json drawing = drawing_of(run, read_json(options.run / "run.json", "drumlin-run-1"), options);
+    const Json drawing = drawing_of(run, read_json<RunRecord>(options.run / "run.json"), options);
     const fs::path& made = results.begin();
     if (options.player) {
       print_out(fmt::format("player.html: {} of {} snapshots, about {:.1f} MB\n",

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/json/json_file.hpp"
+#include "apps/json/records.hpp"
 #include "apps/output/figures.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "particles/bodies/arc.hpp"
@@ -189,7 +190,7 @@ Json drawn_run(const Json& drawing, const fs::path& folder) {
   const fs::path asked = folder / "asked.json", found = folder / "drawn.json";
   write_json(asked, drawing);
   draw_figures("plot_figures.py", {asked.string()});
-  Json drawn = read_json(found, "drumlin-plots-1");
+  Json drawn = read_json<PlotsRecord>(found);
   fs::remove(found);
   fs::remove(asked);
   return drawn;

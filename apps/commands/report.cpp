@@ -13,6 +13,7 @@
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/basics/provenance.hpp"
+#include "coupling/core/results/run_records.hpp"
 #include "particles/io/run_folder.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "particles/stepping/simulation.hpp"
@@ -74,7 +75,7 @@ void add_measured(const particles::RunFolder& run, const fs::path& folder, Json&
   try {
     const ResultFolder found = open_result_folder(measured);
     check_source(found, run.files, "drumlin measure RUN --overwrite");
-    content["measured"] = read_json(checked_file(found, "measured.json"), "drumlin-measured-1");
+    content["measured"] = read_json<MeasuredRecord>(checked_file(found, "measured.json"));
     if (!found.manifest) return;
     for (const auto& [name, entry] : found.manifest->files) {
       if (fs::path(name).extension() != ".png" || fs::path(name).has_parent_path()) continue;
@@ -94,7 +95,7 @@ Json content_of(const particles::RunFolder& run, const Json& report, const Json&
                {"run", report},
                {"scene", scene_of(run)},
                {"figures", drawn["figures"]},
-               {"provenance", to_json(provenance())}};
+               {"provenance", provenance()}};
   add_accepted_edits(content["provenance"], accepted_edits(run.files));
   return content;
 }
@@ -111,7 +112,7 @@ int report(const ReportOptions& options) {
   const fs::path folder = options.output.value_or(options.run / "report");
   return make_results(results_of(options, "report", folder, "report.json"), [&](Results& results) -> Made {
     const particles::RunFolder run = particles::read_run_folder(options.run);
-    const Json record = read_json(options.run / "run.json", "drumlin-run-1");
+    const Json record = read_json<RunRecord>(options.run / "run.json");
     PlotOptions pictures;
     pictures.run = options.run;
     pictures.player = !run.snapshots.empty();

@@ -236,11 +236,11 @@ class ParticleRun {
 
   void write_report(RunStatus status) {
     costs_ = followers_.costs();
-    nlohmann::ordered_json report = run_report(progress_now(), status);
-    if (!stretches_.is_null()) report["accuracy"]["stretches"] = stretches_;
-    if (!started_from_.is_null()) report["started_from"] = started_from_;
-    if (!costs_.empty()) report["ranks"] = to_json(costs_);
-    write_json(options_.output / "run.json", report);
+    RunRecord record = run_report(progress_now(), status);
+    if (!stretches_.is_null()) record.accuracy.json["stretches"] = stretches_;
+    record.started_from.json = started_from_;
+    if (!costs_.empty()) record.ranks.json = costs_;
+    write_json(options_.output / "run.json", record);
   }
 
   std::string line_of_progress() const {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/json/described.hpp"
+#include "coupling/core/documents/described.hpp"
 
 namespace drumlin::particles {
 DRUMLIN_DESCRIBED(StretchChange, change, ci99, error_at_most)

@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 
 #include "apps/commands/region_table.hpp"
 #include "apps/json/json_file.hpp"
 #include "apps/process/progress.hpp"
-#include "coupling/core/basics/provenance.hpp"
 #include "coupling/core/machine/own_costs.hpp"
 
 namespace drumlin::apps {
@@ -32,6 +30,20 @@ std::array<TimePart, 6> time_parts(const particles::RunTotals& t) {
            {"rest", std::max(0.0, t.wall_seconds - named)}}};
 }
 
+/// The overlaps of the last stage, and where and when the deepest was.
+nlohmann::ordered_json stage_overlaps(const RunProgress& run) {
+  const auto& o = run.totals.stage_overlaps;
+  const double mm = 1e3 * run.simulation.scales().length_m;
+  nlohmann::ordered_json content = {
+      {"stage", run.scene.stages[o.stage].name},
+      {"overlap_mean", o.sum / static_cast<double>(std::max<std::int64_t>(1, o.steps))},
+      {"overlap_max", o.max}};
+  if (o.max > 0)
+    content["deepest"] = {{"step", o.step},   {"time_s", o.time_s}, {"grain", o.grain},
+                          {"other", o.other}, {"x_mm", mm * o.x},   {"z_mm", mm * o.z}};
+  return content;
+}
+
 nlohmann::ordered_json accuracy(const RunProgress& run, double steps) {
   const particles::RunTotals& t = run.totals;
   return {{"solver", run.scene.solver.name},
@@ -45,21 +57,8 @@ nlohmann::ordered_json accuracy(const RunProgress& run, double steps) {
           {"sinking_max", t.sinking_max},
           {"overlap_mean", t.overlap_sum / steps},
           {"overlap_max", t.overlap_max},
-          {"unresolved_impacts", t.unresolved_impacts}};
-}
-
-/// The overlaps of the last stage, and where and when the deepest was.
-nlohmann::ordered_json stage_overlaps(const RunProgress& run) {
-  const auto& o = run.totals.stage_overlaps;
-  const double mm = 1e3 * run.simulation.scales().length_m;
-  nlohmann::ordered_json content = {
-      {"stage", run.scene.stages[o.stage].name},
-      {"overlap_mean", o.sum / static_cast<double>(std::max<std::int64_t>(1, o.steps))},
-      {"overlap_max", o.max}};
-  if (o.max > 0)
-    content["deepest"] = {{"step", o.step},   {"time_s", o.time_s}, {"grain", o.grain},
-                          {"other", o.other}, {"x_mm", mm * o.x},   {"z_mm", mm * o.z}};
-  return content;
+          {"unresolved_impacts", t.unresolved_impacts},
+          {"last_stage", stage_overlaps(run)}};
 }
 
 std::string stage_overlaps_text(const RunProgress& run) {
@@ -208,38 +207,36 @@ ExitCode exit_code_of_missed(std::int64_t missed, std::int64_t steps) {
   return 2 * missed > steps ? ExitCode::not_converged : ExitCode::done;
 }
 
-nlohmann::ordered_json run_report(const RunProgress& run, RunStatus status) {
+RunRecord run_report(const RunProgress& run, RunStatus status) {
   const auto& state = run.simulation.state();
   const double steps = std::max<double>(1, static_cast<double>(state.step));
-  nlohmann::ordered_json report;
-  report["format"] = "drumlin-run-1";
-  report["title"] = run.scene.title;
-  report["reduced"] = run.scene.reduced;
-  report["status"] = name_of(status);
-  report["wall_seconds"] = run.totals.wall_seconds;
-  report["cpu_seconds"] = run.totals.cpu_seconds;
-  report["peak_memory_mb"] = own_peak_memory_mb();
-  report["steps"] = state.step;
-  report["steps_planned"] = run.simulation.plan().steps;
-  report["unconverged_steps"] = run.totals.unconverged_steps;
-  if (run.totals.unconverged_steps > 0) report["first_unconverged_step"] = run.totals.first_unconverged_step;
-  report["revision"] = provenance().revision;
-  report["seed"] = run.scene.seed;
-  report["threads"] = run.threads;
-  report["grains"] = state.bodies.count();
-  report["simulated_seconds"] = state.time() * run.simulation.scales().time_s;
-  report["snapshots"] = state.snapshots;
-  report["accuracy"] = accuracy(run, steps);
-  report["accuracy"]["last_stage"] = stage_overlaps(run);
-  report["cost"] = cost(run, steps);
-  report["warnings"] = run_warnings(run);
-  if (particles::ends_stages_early(run.scene)) report["stages"] = stage_ends(run);
-  if (state.traffic) report["regions"] = regions_report(run.scene, run.simulation);
-  if (state.left) report["left"] = left_report(run);
-  if (state.energy) report["energy"] = energy(*state.energy);
-  report["scales"] = to_json(run.simulation.scales());
-  report["provenance"] = to_json(provenance());
-  return report;
+  RunRecord record;
+  record.title.json = run.scene.title;
+  record.reduced = run.scene.reduced;
+  record.status = name_of(status);
+  record.wall_seconds = run.totals.wall_seconds;
+  record.cpu_seconds = run.totals.cpu_seconds;
+  record.peak_memory_mb = own_peak_memory_mb();
+  record.steps = state.step;
+  record.steps_planned = run.simulation.plan().steps;
+  record.unconverged_steps = run.totals.unconverged_steps;
+  if (run.totals.unconverged_steps > 0) record.first_unconverged_step = run.totals.first_unconverged_step;
+  record.revision = provenance().revision;
+  record.seed = run.scene.seed;
+  record.threads = run.threads;
+  record.grains = state.bodies.count();
+  record.simulated_seconds = state.time() * run.simulation.scales().time_s;
+  record.snapshots = state.snapshots;
+  record.accuracy.json = accuracy(run, steps);
+  record.cost.json = cost(run, steps);
+  record.warnings.json = run_warnings(run);
+  if (particles::ends_stages_early(run.scene)) record.stages.json = stage_ends(run);
+  if (state.traffic) record.regions.json = regions_of(run.scene, run.simulation);
+  if (state.left) record.left.json = left_report(run);
+  if (state.energy) record.energy.json = energy(*state.energy);
+  record.scales.json = run.simulation.scales();
+  record.provenance.json = provenance();
+  return record;
 }
 
 std::string as_far_as_it_went(const particles::RunFolder& run) {

@@ -1,12 +1,11 @@
 #pragma once
 // The report of a run: run.json, and the summary at its end.
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "coupling/core/basics/errors.hpp"
-#include "coupling/core/basics/run_status.hpp"
+#include "coupling/core/results/run_records.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/run_folder.hpp"
 #include "particles/scene/scene.hpp"
@@ -39,7 +38,7 @@ inline constexpr double unseen_missed_share = 0.01;
 ExitCode exit_code_of_missed(std::int64_t missed, std::int64_t steps);
 
 /// The content of run.json (docs/formats/run.md).
-nlohmann::ordered_json run_report(const RunProgress&, RunStatus status);
+RunRecord run_report(const RunProgress&, RunStatus status);
 
 /// What a user must know before the results are used: steps that missed a tolerance, overlap that discs
 /// should not have, a start that overlaps. None where all holds.

@@ -11,6 +11,7 @@
 #include "coupling/core/files/text_file.hpp"
 #include "coupling/core/hdf5/field_map_file.hpp"
 #include "coupling/core/results/plane_invariants.hpp"
+#include "coupling/core/results/run_records.hpp"
 #include "particles/measurement/frame/measurement_frame.hpp"
 
 namespace drumlin::apps {
@@ -95,11 +96,11 @@ void write_flow_of_fields(const fs::path& file, const fs::path& folder) {
   write_profiles(folder / "profiles.csv", profiles);
   replace_file(folder / "flow_scene.toml", "[effects]\n");
   const double theta = needed_number(profiles.header, &RunHeader::theta_deg, file.string());
-  write_json(folder / "flow.json", {{"format", "drumlin-flow-run-2"},
+  write_json(folder / "flow.json", {{"format", FlowRecord::format},
                                     {"geometry", "drum"},
                                     {"reduced", profiles.header.reduced.value_or(false)},
                                     {"theta_deg", theta},
-                                    {"settings", {{"scales", to_json(scales)}}}});
+                                    {"settings", {{"scales", scales}}}});
 }
 
 }  // namespace drumlin::apps

@@ -92,7 +92,7 @@ Json given_of(const StudyRequest& request) {
   if (request.limits) (void)read_toml(*request.limits);
   given["limits"] = request.limits ? Json(request.limits->string()) : Json();
   given["pairs"] = compared_pairs(sides, request.limits.has_value());
-  given["provenance"] = to_json(provenance());
+  given["provenance"] = provenance();
   add_accepted_edits(given["provenance"], edits);
   return given;
 }

@@ -9,6 +9,7 @@
 #include "apps/json/json_file.hpp"
 #include "coupling/core/documents/json_numbers.hpp"
 #include "coupling/core/law/ill_posed.hpp"
+#include "coupling/core/results/run_records.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -122,7 +123,7 @@ Json settings_json(const FinishedFlow& flow) {
                   {"regularisation_pressure", s.regularisation.pressure},
                   {"tolerance", s.solver.tolerance},
                   {"layer_thickness", s.output.layer_thickness},
-                  {"scales", to_json(scales_of(s))}};
+                  {"scales", scales_of(s)}};
   settings.update(rest);
   return settings;
 }
@@ -244,7 +245,7 @@ Json law_json(const RheologyFit& fit) {
 Json flow_json(const FinishedFlow& flow) {
   const continuum::MeshResult& result = flow.meshes.back();
   const continuum::FlowReport& report = flow.solution.report;
-  Json content{{"format", flow_format}, {"reduced", flow.asked.reduced()}};
+  Json content{{"format", FlowRecord::format}, {"reduced", flow.asked.reduced()}};
   content["geometry"] = name_of(flow.asked.flow_case.geometry);
   add_scalars(content, result.scalars);
   add_scalars(content, flow.asked.flow_case.given);
@@ -280,7 +281,7 @@ Json flow_json(const FinishedFlow& flow) {
   content["law_band"] = law_band_json(flow);
   content["accuracy"] = accuracy_json(flow);
   content["settings"] = settings_json(flow);
-  content["provenance"] = to_json(provenance());
+  content["provenance"] = provenance();
   add_accepted_edits(content["provenance"], flow.asked.accepted);
   return content;
 }

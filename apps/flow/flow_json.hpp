@@ -6,9 +6,6 @@
 
 namespace drumlin::apps {
 
-/// Format of flow.json, also for readers within apps/flow.
-inline constexpr const char* flow_format = "drumlin-flow-run-2";
-
 /// Only reads what was computed: no collective call.
 nlohmann::ordered_json flow_json(const FinishedFlow& flow);
 

@@ -4,12 +4,9 @@
 
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
 
-#include "apps/flow/flow_json.hpp"
-#include "apps/json/json_file.hpp"
 #include "apps/process/interruption.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
@@ -18,6 +15,7 @@
 #include "coupling/core/files/last_whole.hpp"
 #include "coupling/core/files/result_folder.hpp"
 #include "coupling/core/files/text_file.hpp"
+#include "coupling/core/results/run_records.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -63,11 +61,9 @@ void print_step(const continuum::MarchStep& step, int steps) {
 }
 
 double rotation_rpm_of(const fs::path& flow_json, double time_unit_s) {
-  const auto flow = read_json(flow_json, flow_format);
-  const auto settings = flow.value("settings", nlohmann::ordered_json::object());
-  if (!settings.contains("rotation") || !settings["rotation"].is_number())
-    throw InputError(flow_json.string() + ": settings.rotation is missing: no drum");
-  return settings["rotation"].get<double>() / time_unit_s * 30 / std::numbers::pi;
+  const auto rotation = read_record<FlowRecord>(flow_json).settings.rotation.value;
+  if (!rotation) throw InputError(flow_json.string() + ": settings.rotation is missing: no drum");
+  return *rotation / time_unit_s * 30 / std::numbers::pi;
 }
 
 continuum::MarchState start_from(const fs::path& flow_run, const continuum::DrumMarch& march) {

@@ -1,8 +1,5 @@
 #include "apps/json/json_file.hpp"
 
-#include <nlohmann/json.hpp>
-
-#include "coupling/core/basics/errors.hpp"
 #include "coupling/core/documents/json_numbers.hpp"
 #include "coupling/core/files/text_file.hpp"
 
@@ -25,22 +22,8 @@ Json to_json(const Scalar& scalar) {
   return {{"value", number_or_null(scalar.value)}, {"ci99", number_or_null(*scalar.ci99)}};
 }
 
-Json to_json(const Provenance& provenance) {
-  return {{"revision", provenance.revision},
-          {"compiler", provenance.compiler},
-          {"build_type", provenance.build_type},
-          {"machine", provenance.machine},
-          {"processors", provenance.processors}};
-}
-
-Json to_json(const Scales& scales) {
-  return {{"length_m", scales.length_m}, {"time_s", scales.time_s}, {"density_kg_m3", scales.density_kg_m3}};
-}
-
 void add_scalars(Json& content, const ScalarSet& scalars) {
   for (const auto& scalar : scalars.scalars) content[scalar.name] = to_json(scalar);
 }
-
-Json to_json(const LawCurve& curve) { return {{"I", curve.I}, {"mu", curve.mu}}; }
 
 }  // namespace drumlin::apps

@@ -1,15 +1,18 @@
 #pragma once
 // JSON files of the commands, written aside and renamed, and the values that all of them hold.
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "coupling/core/basics/provenance.hpp"
-#include "coupling/core/basics/scales.hpp"
-#include "coupling/core/documents/json_document.hpp"
+#include "coupling/core/documents/described.hpp"
 #include "coupling/core/law/law_curve.hpp"
 #include "coupling/core/results/scalar_set.hpp"
+
+namespace drumlin {
+DRUMLIN_DESCRIBED(Provenance, revision, compiler, build_type, machine, processors)
+DRUMLIN_DESCRIBED(LawCurve, I, mu)
+}  // namespace drumlin
 
 namespace drumlin::apps {
 
@@ -22,9 +25,6 @@ void add_accepted_edits(nlohmann::ordered_json& provenance, const std::vector<st
 /// {"value": , "ci99": } for a measurement, the plain number where there is no interval; null for what was
 /// not computed.
 nlohmann::ordered_json to_json(const Scalar& scalar);
-nlohmann::ordered_json to_json(const Provenance& provenance);
-nlohmann::ordered_json to_json(const Scales& scales);
-nlohmann::ordered_json to_json(const LawCurve& curve);  ///< {"I": [...], "mu": [...]}
 
 /// Adds each scalar under its name.
 void add_scalars(nlohmann::ordered_json& content, const ScalarSet& scalars);

@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "coupling/core/basics/errors.hpp"
-#include "coupling/core/documents/json_document.hpp"
 #include "coupling/core/files/input_file.hpp"
+#include "coupling/core/results/run_records.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/io/snapshot_list.hpp"
 #include "particles/scene/scene_file.hpp"
@@ -23,13 +21,13 @@ RunFolder read_run_folder(const fs::path& folder) {
   RunFolder result;
   result.folder = folder;
   result.files = open_result_folder(folder);
-  const auto run = read_json(checked_file(result.files, "run.json"), "drumlin-run-1");
-  if (run.value("imported", false))
+  const auto run = read_record<RunRecord>(checked_file(result.files, "run.json"));
+  if (run.imported.value_or(false))
     throw InputError(folder.string() + ": is an imported run, which has no scene; drumlin measure reads it");
   result.scene = read_scene(checked_file(result.files, "scene.toml"));
   result.scales = scales_of(result.scene);
-  const auto status = enumerator<RunStatus>(run.value("status", ""));
-  if (!status) throw InputError((folder / "run.json").string() + ": status: missing, or not known");
+  const auto status = enumerator<RunStatus>(run.status);
+  if (!status) throw InputError((folder / "run.json").string() + ": status: is not known");
   result.status = *status;
   result.snapshots = snapshot_files(folder);
   return result;

@@ -18,7 +18,7 @@ import sys
 
 TOPS = ("particles", "continuum", "coupling", "apps")
 # Third-party headers that a public header may show to those who include it.
-PUBLIC_LIBRARIES = {"particles": ["Eigen/"], "apps": ["nlohmann/"], "coupling/core/documents": ["nlohmann/json_fwd.hpp"]}
+PUBLIC_LIBRARIES = {"particles": ["Eigen/"], "apps": ["nlohmann/"], "coupling/core/documents": ["nlohmann/"]}
 # Headers that only these folders may include, in any file.
 PRIVATE_LIBRARIES = {
     "deal.II/": ["continuum/fem", "particles/distributed"],

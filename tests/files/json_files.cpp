@@ -4,11 +4,12 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <vector>
 
 #include "apps/json/json_file.hpp"
+#include "apps/json/records.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/documents/json_numbers.hpp"
+#include "coupling/core/results/run_records.hpp"
 #include "tests/files/folder.hpp"
 
 namespace drumlin::apps {
@@ -25,7 +26,6 @@ TEST(JsonFile, WhatWasNotComputedIsNull) {
 }
 
 TEST(JsonNumbers, AreNullWhereThereIsNone) {
-  EXPECT_EQ(numbers_or_null(std::vector<double>{1.5, nan}).dump(), "[1.5,null]");
   EXPECT_EQ(number_or_null(std::optional<double>()).dump(), "null");
   EXPECT_EQ(number_or_nan(nlohmann::ordered_json(2)), 2);
   EXPECT_TRUE(std::isnan(number_or_nan(nullptr).value()));
@@ -44,30 +44,28 @@ TEST(JsonFile, AnotherFormatIsRefused) {
 
 TEST(JsonFile, ValuesOfAnotherTypeAreRefusedWithFileKeyAndWhatIsAllowed) {
   const TemporaryFolder folder;
-  const auto refused = [&](const std::string& format, const std::string& rest) {
-    const auto file = folder.with("x.json", "{\"format\": \"" + format + "\", " + rest + "}");
-    return drumlin::message_of<InputError>([&] { (void)read_json(file, format); });
+  const auto refused = [&]<class T>(T, const std::string& rest) {
+    const auto file = folder.with("x.json", std::string("{\"format\": \"") + T::format + "\", " + rest + "}");
+    return drumlin::message_of<InputError>([&] { (void)read_json<T>(file); });
   };
-  const auto expect = [&](const std::string& format, const std::string& rest, const std::string& said) {
-    expect_has(refused(format, rest), "x.json: " + said);
+  const auto expect = [&](auto record, const std::string& rest, const std::string& said) {
+    expect_has(refused(record, rest), "x.json: " + said);
   };
-  expect("drumlin-run-1", R"("cpu_seconds": null)", "cpu_seconds: is null (allowed: a number)");
-  expect("drumlin-run-1", R"("title": "a\nb")", "title: is \"a\\nb\" (allowed: a text of one line)");
-  expect("drumlin-run-1", R"("imported": "yes")", "imported: is \"yes\" (allowed: true or false)");
-  expect("drumlin-run-1", R"("status": {})", "status: is {} (allowed: a text)");
-  expect("drumlin-run-1", R"("cost": {"sweeps_mean": []})",
+  expect(RunRecord(), R"("cpu_seconds": null)", "cpu_seconds: is null (allowed: a number)");
+  expect(RunRecord(), R"("title": "a\nb")", "title: is \"a\\nb\" (allowed: a text of one line)");
+  expect(RunRecord(), R"("imported": "yes")", "imported: is \"yes\" (allowed: true or false)");
+  expect(RunRecord(), R"("status": {})", "status: is {} (allowed: a text)");
+  expect(RunRecord(), R"("cost": {"sweeps_mean": []})",
          "cost.sweeps_mean: is [] (allowed: a number or null)");
-  expect("drumlin-measured-1", R"("reduced": {})", "reduced: is {} (allowed: true or false)");
-  expect("drumlin-measured-1", R"("settings": [1])", "settings: is [1] (allowed: a table)");
-  expect("drumlin-flow-run-2", R"("settings": {"law": [1, "a"]})",
-         "settings.law: is [1,\"a\"] (allowed: a table)");
-  expect("drumlin-flow-run-2", R"("meshes": [{"unknowns": 3}, {}])", "meshes.1.unknowns: is missing");
-  expect("drumlin-flow-run-2", R"("settings": {"scales": {"time_s": "1"}})",
-         "settings.scales.time_s: is \"1\"");
-  expect("drumlin-cost-1", R"("points": {"a": 1})", "points: is {\"a\":1} (allowed: an array)");
-  expect("drumlin-plots-1", R"("title": 3)", "figures: is missing (allowed: a table)");
+  expect(MeasuredRecord(), R"("reduced": {})", "reduced: is {} (allowed: true or false)");
+  expect(MeasuredRecord(), R"("settings": [1])", "settings: is [1] (allowed: a table)");
+  expect(FlowRecord(), R"("settings": {"law": [1, "a"]})", "settings.law: is [1,\"a\"] (allowed: a table)");
+  expect(FlowRecord(), R"("meshes": [{"unknowns": 3}, {}])", "meshes.1.unknowns: is missing");
+  expect(FlowRecord(), R"("settings": {"scales": {"time_s": "1"}})", "settings.scales.time_s: is \"1\"");
+  expect(CostRecord(), R"("points": {"a": 1})", "points: is {\"a\":1} (allowed: an array)");
+  expect(PlotsRecord(), R"("title": 3)", "figures: is missing (allowed: a table)");
   // All of them at once.
-  const std::string both = refused("drumlin-run-1", R"("steps": "3", "grains": true)");
+  const std::string both = refused(RunRecord(), R"("steps": "3", "grains": true)");
   expect_has(both, "steps:");
   expect_has(both, "grains:");
 }

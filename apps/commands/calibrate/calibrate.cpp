@@ -10,12 +10,12 @@
 
 #include "apps/commands/calibrate/calibration_json.hpp"
 #include "apps/commands/calibrate/evidence.hpp"
-#include "apps/json/described.hpp"
 #include "apps/json/json_file.hpp"
 #include "apps/output/figures.hpp"
 #include "apps/output/output_folder.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/json_numbers.hpp"
 #include "coupling/core/files/input_file.hpp"
 #include "coupling/core/law/rheology_file.hpp"
 
@@ -97,8 +97,8 @@ Json laws_of_the_bed(const CalibrateOptions& options, const std::vector<Measured
                    {"memory", options.memory},
                    {"nonlocal", options.nonlocal},
                    {"own_weight", options.amount ? Json(options.own_weight) : Json()},
-                   {"I_min", options.I_min},
-                   {"I_max", options.I_max}};
+                   {"I_min", number_or_null(options.I_min)},
+                   {"I_max", number_or_null(options.I_max)}};
   std::vector<std::string> words{asked.dump()};
   for (const MeasuredRun& run : runs)
     words.insert(words.end(), {run.name, (run.folder / "measured" / "maps.h5").string()});

@@ -5,6 +5,7 @@
 
 #include "apps/commands/calibrate/law_json.hpp"
 #include "apps/json/json_file.hpp"
+#include "coupling/core/documents/json_numbers.hpp"
 #include "coupling/core/statistics/straight_line.hpp"
 
 namespace drumlin {
@@ -78,7 +79,8 @@ Json volume_fractions(const std::vector<coupling::RunEvidence>& runs) {
     for (const coupling::FrictionPoint& point : run.layers) sum += point.I;
     I.push_back(sum / static_cast<double>(run.layers.size()));
     nu.push_back(run.nu.value);
-    points.push_back({{"run", run.name}, {"I", I.back()}, {"nu", nu.back()}, {"ci99", run.nu.ci99}});
+    points.push_back(
+        {{"run", run.name}, {"I", I.back()}, {"nu", nu.back()}, {"ci99", number_or_null(run.nu.ci99)}});
   }
   const auto line = I.size() < 2 ? std::nullopt : statistics::fit_line(I, nu);
   if (!line) return nullptr;
@@ -115,7 +117,7 @@ Json calibration_json(const coupling::Calibration& calibration, const std::vecto
   json["turn"] = calibration.turn ? turn_json(calibration) : Json();
   json["runs"] = calibration.scores;
   json["held_out"] = calibration.predictions;
-  json["one_law"] = calibration.one_law;
+  json["one_law"] = calibration.one_law ? Json(*calibration.one_law) : Json();
   if (const Json fractions = volume_fractions(calibration.runs); !fractions.is_null())
     json["volume_fraction"] = fractions;
   json["unsteady"] = Json::array();
@@ -123,7 +125,7 @@ Json calibration_json(const coupling::Calibration& calibration, const std::vecto
     for (const std::string& reason : run.unsteady)
       json["unsteady"].push_back({{"run", run.name}, {"reason", reason}});
   json["points"] = points_of_all(calibration);
-  json["provenance"] = to_json(provenance());
+  json["provenance"] = provenance();
   std::vector<std::string> edits;
   for (const MeasuredRun& run : runs) edits.insert(edits.end(), run.accepted.begin(), run.accepted.end());
   add_accepted_edits(json["provenance"], edits);

@@ -1,7 +1,7 @@
 #pragma once
 // A law over I as JSON.
-#include "apps/json/described.hpp"
 #include "coupling/calibration/calibrated_law.hpp"
+#include "coupling/core/documents/described.hpp"
 
 namespace drumlin::coupling {
 DRUMLIN_DESCRIBED(SampledLaw, I, value, low, high)

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/json/json_file.hpp"
+#include "apps/json/records.hpp"
 #include "apps/output/figures.hpp"
 #include "apps/output/output_folder.hpp"
 #include "apps/process/interruption.hpp"
@@ -24,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char *point_format = "drumlin-cost-point-1", *sweep_format = "drumlin-cost-sweep-1";
+constexpr const char* sweep_format = "drumlin-cost-sweep-1";
 
 bool is_flow_scene(const fs::path& file) {
   const Document document = read_toml(file);
@@ -77,11 +78,11 @@ class CostFolder {
   Json kept(const std::string& name) const {
     const std::string file = "points/" + name + ".json";
     if (!growing_->manifest().files.contains(file)) return {};
-    return read_json(growing_->folder() / file, point_format);
+    return read_json<CostPointRecord>(growing_->folder() / file);
   }
 
   void keep(const std::string& name, const Json& point) {
-    Json content{{"format", point_format}, {"name", name}};
+    Json content{{"format", CostPointRecord::format}, {"name", name}};
     content.update(point);
     write_json(growing_->folder() / "points" / (name + ".json"), content);
     growing_->list("points/" + name + ".json");
@@ -90,7 +91,7 @@ class CostFolder {
 
   /// cost.json comes last: each of `drawings`, a script and what it draws into, draws from a part of it.
   void finish(Json content, const Json& drawings) {
-    content["provenance"] = to_json(provenance());
+    content["provenance"] = provenance();
     const fs::path folder = staged_ ? staged_->folder() : growing_->folder();
     {
       const UnfinishedFile unfinished(folder / "cost.json.part");

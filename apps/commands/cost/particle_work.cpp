@@ -2,11 +2,11 @@
 
 #include "apps/commands/cost/cost.hpp"
 #include "apps/commands/run_files.hpp"
-#include "apps/json/described.hpp"
 #include "apps/output/output_folder.hpp"
 #include "apps/process/interruption.hpp"
 #include "apps/process/progress.hpp"
 #include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/described.hpp"
 #include "coupling/core/files/text_file.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/run_folder.hpp"

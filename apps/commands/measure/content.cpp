@@ -7,6 +7,7 @@
 
 #include "apps/json/json_file.hpp"
 #include "coupling/core/documents/json_numbers.hpp"
+#include "coupling/core/results/run_records.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -55,7 +56,7 @@ Json settings_of(const particles::Measurement& m, const particles::MeasurementOp
       {"axis_depth", m.axis_depth},
       {"wall_z", m.wall_z},
       {"drum_radius", m.place.container_radius},
-      {"scales", to_json(m.scales)}};
+      {"scales", m.scales}};
   settings["geometry"] = m.place.container_radius > 0 ? "drum" : m.place.period > 0 ? "layers" : "open";
   if (m.layer_thickness != options.layer_thickness)
     settings["layer_thickness_asked"] = options.layer_thickness;
@@ -70,13 +71,6 @@ Json settings_of(const particles::Measurement& m, const particles::MeasurementOp
     settings["gradient_step_asked"] = *options.gradient_step;
   }
   return settings;
-}
-
-Json fits_of(const ProfileScalars& fits) {
-  return {{"surface_speed", fits.surface_speed},
-          {"fit_bottom", fits.fit_bottom},
-          {"fit_top", fits.fit_top},
-          {"decay_log_rate", fits.decay_log_rate}};
 }
 
 Json steadiness_of(const particles::Steadiness& s) {

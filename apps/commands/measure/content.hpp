@@ -12,8 +12,6 @@ namespace drumlin::apps {
 nlohmann::ordered_json settings_of(const particles::Measurement& measured,
                                    const particles::MeasurementOptions& options,
                                    const coupling::LayerSelection& selection);
-/// What the figures draw over the profiles.
-nlohmann::ordered_json fits_of(const ProfileScalars& fits);
 nlohmann::ordered_json steadiness_of(const particles::Steadiness& steadiness);
 /// {"value", "ci99", "sensitivity": {"lowest", "highest", "changes": {"words": value}}}, the last only when
 /// known.

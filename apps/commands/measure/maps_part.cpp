@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "apps/json/described.hpp"
 #include "apps/json/json_file.hpp"
 #include "apps/process/standard_streams.hpp"
+#include "coupling/core/documents/described.hpp"
 #include "coupling/core/files/scratch_file.hpp"
 #include "coupling/core/hdf5/field_map_file.hpp"
 #include "particles/measurement/maps/field_values.hpp"

@@ -35,6 +35,11 @@
 #include "particles/measurement/run_log.hpp"
 #include "particles/scene/scene_file.hpp"
 
+namespace drumlin {
+/// What the figures draw over the profiles.
+DRUMLIN_DESCRIBED(ProfileScalars, surface_speed, fit_bottom, fit_top, decay_log_rate)
+}  // namespace drumlin
+
 namespace drumlin::apps {
 
 namespace {
@@ -51,15 +56,14 @@ ResultFolder run_in(const fs::path& run) {
   return open_result_folder(run);
 }
 
-Json finished_run(const ResultFolder& folder) {
+RunRecord finished_run(const ResultFolder& folder) {
   const fs::path& run = folder.path;
-  const Json json = read_json(run / "run.json", "drumlin-run-1");
-  const Json status = json.value("status", Json());
-  if (status != name_of(RunStatus::finished) || !folder.manifest->complete)
+  RunRecord record = read_record<RunRecord>(run / "run.json");
+  if (record.status != name_of(RunStatus::finished) || !folder.manifest->complete)
     throw InputError(
         fmt::format("{}: the run is unfinished (status {}); continue it with drumlin run --resume",
-                    run.string(), status.dump()));
-  return json;
+                    run.string(), record.status));
+  return record;
 }
 
 particles::MeasurementOptions settings_for(const MeasureOptions& options) {
@@ -135,9 +139,9 @@ void write_series(const fs::path& file, const particles::TimeSeries& series) {
 }
 
 /// What is known beside the intervals; nothing of another program's run.
-Json statement_of(const MeasureOptions& options, const Json& run, const particles::Measurement& measured,
+Json statement_of(const MeasureOptions& options, const RunRecord& run, const particles::Measurement& measured,
                   const ScalarSet& scalars) {
-  if (run.value("imported", false) || !fs::exists(options.run() / "scene.toml")) return {};
+  if (run.imported.value_or(false) || !fs::exists(options.run() / "scene.toml")) return {};
   const particles::Scene scene = particles::read_scene(options.run() / "scene.toml");
   const double snapshots = static_cast<double>(measured.series.time.size());
   const double both_ends =
@@ -146,8 +150,8 @@ Json statement_of(const MeasureOptions& options, const Json& run, const particle
   const double turned = measured.series.wall_angle.empty()
                             ? 0
                             : measured.series.wall_angle.back() - measured.series.wall_angle.front();
-  const RunCost cost{.cpu_seconds = run.value("cpu_seconds", 0.0),
-                     .simulated_seconds = run.value("simulated_seconds", 0.0),
+  const RunCost cost{.cpu_seconds = run.cpu_seconds.value_or(0),
+                     .simulated_seconds = run.simulated_seconds.value_or(0),
                      .sampled_seconds = sampled,
                      .turns = both_ends * std::abs(turned) / (2 * std::numbers::pi)};
   ScalarSet with_intervals;
@@ -157,8 +161,9 @@ Json statement_of(const MeasureOptions& options, const Json& run, const particle
 }
 
 /// Steps that missed a tolerance, where they are more than leave no trace in averages.
-void note_missed_steps(const Json& run, particles::Steadiness& steadiness) {
-  const double missed = run.value("unconverged_steps", 0.0), steps = run.value("steps", 0.0);
+void note_missed_steps(const RunRecord& run, particles::Steadiness& steadiness) {
+  const auto missed = static_cast<double>(run.unconverged_steps.value_or(0)),
+             steps = static_cast<double>(run.steps.value_or(0));
   if (!(missed > unseen_missed_share * steps)) return;
   steadiness.steady = false;
   steadiness.reasons.push_back(
@@ -172,7 +177,7 @@ struct Request {
   const MeasureOptions& options;
   particles::MeasurementOptions settings;
   coupling::LayerSelection selection;  ///< of the fit of mu(I)
-  Json run;                            ///< its run.json
+  RunRecord run;
   bool reduced = false;
   std::vector<Part> parts;
 };
@@ -205,7 +210,7 @@ coupling::CentreFriction friction_of(const Request& request, const particles::Me
 /// The curve that figures draw: null where there is no law.
 Json curve_of(const LogLaw& law) {
   if (!std::isfinite(law.a) || !(law.I_min < law.I_max)) return {};
-  return to_json(law_curve(law, law.I_min, law.I_max));
+  return law_curve(law, law.I_min, law.I_max);
 }
 
 /// Those of the measurement, of the fit of mu(I) and of the log.
@@ -215,7 +220,7 @@ ScalarSet all_scalars(const Request& request, const particles::Measurement& meas
   const double second = measured.scales.time_s;
   // A run of another program tells nothing of its accuracy.
   const ScalarSet accuracy =
-      request.run.value("imported", false)
+      request.run.imported.value_or(false)
           ? ScalarSet{}
           : particles::accuracy_scalars(request.options.run() / "log.csv", measured.first_time() * second,
                                         measured.last_time() * second);
@@ -227,27 +232,27 @@ ScalarSet all_scalars(const Request& request, const particles::Measurement& meas
 /// measured.json but for what the parts and the slices add.
 Json content_of(const Request& request, const particles::Measurement& measured, const ScalarSet& scalars,
                 const Json& statement) {
-  const Json& run = request.run;
-  Json content{{"format", "drumlin-measured-1"}, {"reduced", request.reduced}};
+  const RunRecord& run = request.run;
+  Json content{{"format", MeasuredRecord::format}, {"reduced", request.reduced}};
   for (const Scalar& scalar : scalars.scalars)
     content[scalar.name] =
         scalar_with_sensitivity(scalar, particles::sensitivity_of(scalar, measured.variants));
   content["steadiness"] = steadiness_of(measured.steadiness);
-  content["fits"] = fits_of(measured.fits);
+  content["fits"] = measured.fits;
   content["settings"] = settings_of(measured, request.settings, request.selection);
-  content["provenance"] = {{"measurement", to_json(provenance())}, {"run", run.value("provenance", Json())}};
-  for (const char* key : {"revision", "seed"})
-    if (run.contains(key)) content["provenance"][std::string("run_") + key] = run[key];
+  content["provenance"] = {{"measurement", provenance()}, {"run", run.provenance.json}};
+  if (run.revision) content["provenance"]["run_revision"] = *run.revision;
+  if (run.seed) content["provenance"]["run_seed"] = *run.seed;
   content["accuracy"] = statement;
   return content;
 }
 
 /// What the run told of itself stands in the place of a statement that knows no errors.
 void print_accuracy(const Request& request, const Json& statement, const ScalarSet& scalars) {
-  const Json none, accuracy = request.run.value("accuracy", none);
-  const Json stretches = accuracy.is_object() ? accuracy.value("stretches", none) : none;
+  const Json& accuracy = request.run.accuracy.json;
+  const Json stretches = accuracy.is_null() ? Json() : accuracy.value("stretches", Json());
   if (!stretches.is_null() && (statement.is_null() || statement.at("record").is_null()))
-    print_out(text_of_stretches(stretches, request.run.value("cpu_seconds", 0.0)));
+    print_out(text_of_stretches(stretches, request.run.cpu_seconds.value_or(0)));
   else if (!statement.is_null())
     print_out(text_of(statement, scalars));
 }
@@ -281,7 +286,7 @@ int measure_run(const MeasureOptions& options) {
   const ResultFolder run_folder = run_in(options.run());
   check_all_files(run_folder);
   Request request{options, settings_for(options), {}, finished_run(run_folder), false, {}};
-  request.reduced = request.run.value("reduced", false);
+  request.reduced = request.run.reduced.value_or(false);
   const auto files = particles::snapshot_files(options.run());
   if (files.empty())
     throw InputError(options.run().string() + ": holds no snapshots: there is nothing to measure");

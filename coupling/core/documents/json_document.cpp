@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "coupling/core/basics/errors.hpp"
-#include "coupling/core/documents/json_shape.hpp"
 #include "coupling/core/files/input_file.hpp"
 
 namespace drumlin {
@@ -44,12 +43,7 @@ Json read_json(const std::filesystem::path& file, const std::string& format) {
   if (!known)
     throw InputError(file.string() + ": format: is missing or not known here (allowed: an object with \"" +
                      format + "\")");
-  const auto problems = type_problems(file, content, format);
-  return accepted(std::move(content), problems);
-}
-
-std::string plain_text(const Json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  return content;
 }
 
 }  // namespace drumlin

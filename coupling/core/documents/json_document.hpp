@@ -1,5 +1,5 @@
 #pragma once
-// JSON documents of the project: read with its errors, each checked for its format.
+// JSON documents of the project, read with its errors (records of a format: described.hpp).
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -10,11 +10,8 @@ namespace drumlin {
 /// are too large, on more than 32 levels, on a table of more than 10,000 keys.
 nlohmann::ordered_json parse_json(const std::string& text, const std::string& name);
 
-/// Throws InputError if the file is missing, larger than 64 MiB, no JSON object, if its "format" is not
-/// `format`, or if a value has another type than that format says (json_shape.hpp).
+/// Throws InputError if the file is missing, larger than 64 MiB, no JSON object, or if its "format" is not
+/// `format`.
 nlohmann::ordered_json read_json(const std::filesystem::path& file, const std::string& format);
-
-/// A text without its quotes, any other value as it stands in JSON.
-std::string plain_text(const nlohmann::ordered_json& value);
 
 }  // namespace drumlin

@@ -12,12 +12,6 @@ Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : 
 
 Json number_or_null(const std::optional<double>& value) { return value ? number_or_null(*value) : Json(); }
 
-Json numbers_or_null(std::span<const double> values) {
-  Json list = Json::array();
-  for (const double value : values) list.push_back(number_or_null(value));
-  return list;
-}
-
 std::optional<double> number_or_nan(const Json& value) {
   if (value.is_null()) return std::numeric_limits<double>::quiet_NaN();
   if (value.is_number()) return value.get<double>();

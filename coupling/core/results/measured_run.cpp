@@ -2,15 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-#include <optional>
+#include <tuple>
 
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/basics/run_status.hpp"
-#include "coupling/core/documents/json_document.hpp"
 #include "coupling/core/files/result_folder.hpp"
 #include "coupling/core/results/run_checks.hpp"
+#include "coupling/core/results/run_records.hpp"
 
 namespace drumlin {
 
@@ -25,49 +23,44 @@ void require_folder(const fs::path& folder) {
   if (!fs::is_directory(folder)) throw InputError(folder.string() + ": is a file, a run's folder is needed");
 }
 
-void check_finished(const fs::path& file, Problems& problems) {
+void check_finished(const fs::path& file) {
   if (!fs::exists(file)) return;
-  const Json status = read_json(file, "drumlin-run-1").value("status", Json());
+  const std::string status = read_record<RunRecord>(file).status;
   if (status != name_of(RunStatus::finished))
-    problems.push_back({file.string(), 0, 0, "status",
-                        "the run is unfinished (status " + plain_text(status) + ")", "\"finished\""});
+    throw InputError({InputProblem{file.string(), 0, 0, "status",
+                                   "the run is unfinished (status " + status + ")", "\"finished\""}});
 }
 
 /// Reasons why a run is not steady, in words; none: it is.
-std::vector<std::string> reasons_against(const Json& measured) {
-  const Json steadiness = measured.value("steadiness", Json());
-  if (!steadiness.is_object() || !steadiness.value("steady", Json()).is_boolean())
-    return {"its measurement does not say whether it is steady"};
-  if (steadiness["steady"].get<bool>()) return {};
-  std::vector<std::string> reasons;
-  for (const Json& reason : steadiness.value("reasons", Json::array())) reasons.push_back(plain_text(reason));
-  if (reasons.empty()) reasons.emplace_back("not steady");
-  return reasons;
+std::vector<std::string> reasons_against(const std::optional<SteadinessRecord>& steadiness) {
+  if (!steadiness || !steadiness->steady) return {"its measurement does not say whether it is steady"};
+  if (*steadiness->steady) return {};
+  return steadiness->reasons.empty() ? std::vector<std::string>{"not steady"} : steadiness->reasons;
 }
 
-/// What one unit is, of the JSON of either side; reports what is no positive number.
-Scales scales_in(const fs::path& file, const Json& settings, Problems& problems) {
-  const Json scales = settings.is_object() ? settings.value("scales", Json()) : Json();
-  const auto positive = [&](const char* key) {
-    const Json value = scales.is_object() ? scales.value(key, Json()) : Json();
-    if (value.is_number() && value.get<double>() > 0 && std::isfinite(value.get<double>()))
-      return value.get<double>();
-    problems.push_back({file.string(), 0, 0, std::string("settings.scales.") + key,
-                        value.is_null() ? "is missing" : "is " + plain_text(value), "a positive number"});
-    return std::nan("");
-  };
-  return {positive("length_m"), positive("time_s"), positive("density_kg_m3")};
-}
-
-/// Headers against the settings of the JSON beside them: one file copied over from elsewhere shows here.
-void check_against_settings(const fs::path& file, const RunHeader& header, const Json& settings,
-                            const std::vector<std::pair<HeaderNumber, std::string>>& keys,
-                            Problems& problems) {
-  for (const auto& [number, setting] : keys) {
-    const Json value = settings.is_object() ? settings.value(setting, Json()) : Json();
-    if (!value.is_number()) continue;
-    require_number_near(file, header, number, value.get<double>(), "settings." + setting, problems);
-  }
+/// What both sides say beside their profiles: one file copied over from elsewhere shows here.
+void check_against_header(const fs::path& file, const RunHeader& header, const fs::path& json_file,
+                          const SettingsRecord& settings, bool reduced, Problems& problems) {
+  if (header.reduced != reduced)
+    problems.push_back({file.string(), 0, 0, "reduced",
+                        fmt::format("is {}, but {} in {}", header_text(header, "reduced").value_or("missing"),
+                                    reduced, json_file.filename().string()),
+                        "the same in both files"});
+  const auto& [length, time, density] = settings.scales;
+  for (const auto& [name, value] :
+       {std::pair("length_m", length), {"time_s", time}, {"density_kg_m3", density}})
+    if (!(value > 0))
+      problems.push_back({json_file.string(), 0, 0, std::string("settings.scales.") + name,
+                          fmt::format("is {:g}", value), "a positive number"});
+  if (!problems.empty()) return;
+  for (const auto& [number, name, value] :
+       {std::tuple(&RunHeader::diameter_m, "scales.length_m", std::optional(length)),
+        {&RunHeader::rotation, "rotation", settings.rotation.value},
+        {&RunHeader::drum_radius, "drum_radius", settings.drum_radius.value},
+        {&RunHeader::theta_deg, "frame_angle_deg", settings.frame_angle_deg.value}})
+    if (value)
+      require_number_near(file, header, number, *value,
+                          fmt::format("settings.{} of {}", name, json_file.filename().string()), problems);
 }
 
 /// The narrow slices, each in the frame and units of the centre.
@@ -95,29 +88,11 @@ std::map<double, ProfileSet> slices_below(const ResultFolder& measured, const Pr
   return slices;
 }
 
-bool reduced_in(const fs::path& file, const Json& json, const fs::path& profile_file, const RunHeader& header,
-                Problems& problems) {
-  const Json said = json.value("reduced", Json());
-  if (!said.is_boolean()) {
-    problems.push_back({file.string(), 0, 0, "reduced",
-                        said.is_null() ? "is missing" : "is " + plain_text(said), "true or false"});
-    return false;
-  }
-  if (header.reduced != said.get<bool>())
-    problems.push_back({profile_file.string(), 0, 0, "reduced",
-                        "is " + header_text(header, "reduced").value_or("missing") + ", but " + said.dump() +
-                            " in " + file.filename().string(),
-                        "the same in both files"});
-  return said.get<bool>();
-}
-
-/// What the calibration leaves open in the scalars of a flow ("law_band"): their half widths.
-void add_law_band(ScalarSet& scalars, const Json& flow) {
-  const Json band = flow.value("law_band", Json());
-  const Json widths = band.is_object() ? band.value("scalars", Json()) : Json();
-  if (!widths.is_object()) return;
+/// What the calibration leaves open in the scalars of a flow: their half widths.
+void add_law_band(ScalarSet& scalars, OrNull<ScalarsRecord> band) {
+  if (!band.value) return;
   for (Scalar& scalar : scalars.scalars) {
-    const Json width = widths.value(scalar.name, Json());
+    const Json& width = band.value->scalars[scalar.name];
     const Json number = width.is_object() ? width.value("ci99", Json()) : width;
     if (number.is_number()) scalar.ci99 = number.get<double>();
   }
@@ -154,11 +129,7 @@ std::string name_of_folder(const fs::path& folder) {
 }
 
 std::vector<std::string> limits_missed_by(const fs::path& flow_run) {
-  std::vector<std::string> missed;
-  for (const Json& sentence :
-       read_json(flow_run / "flow.json", "drumlin-flow-run-2").value("missed", Json::array()))
-    missed.push_back(plain_text(sentence));
-  return missed;
+  return read_record<FlowRecord>(flow_run / "flow.json").missed.value_or(std::vector<std::string>());
 }
 
 bool is_flow_run(const fs::path& folder) {
@@ -167,9 +138,7 @@ bool is_flow_run(const fs::path& folder) {
 
 MeasuredRun read_measured_run(const fs::path& folder, Unsteady unsteady) {
   require_folder(folder);
-  Problems problems;
-  check_finished(folder / "run.json", problems);
-  throw_if_any(problems);
+  check_finished(folder / "run.json");
   if (!fs::exists(folder / "measured" / "measured.json"))
     throw InputError(folder.string() + ": has not been measured; run drumlin measure first");
   const bool cut_out = !fs::exists(folder / "log.csv") && !fs::exists(folder / "snapshots");
@@ -180,28 +149,20 @@ MeasuredRun read_measured_run(const fs::path& folder, Unsteady unsteady) {
   check_source(measured_files, run_files, fmt::format("drumlin measure {} --overwrite", folder.string()));
   const fs::path file = checked_file(measured_files, "measured.json");
   const fs::path profile_file = checked_file(measured_files, "profiles.csv");
-  const Json measured = read_json(file, "drumlin-measured-1");
-  MeasuredRun run{name_of_folder(folder), folder, read_profiles(profile_file), {}, {}, {}, false, {}};
+  const auto measured = read_record<MeasuredRecord>(file);
+  Problems problems;
+  MeasuredRun run{name_of_folder(folder),   folder,           read_profiles(profile_file),         {}, {},
+                  measured.settings.scales, measured.reduced, reasons_against(measured.steadiness)};
   for (const ResultFolder* part : {&run_files, &measured_files})
     for (const std::string& edit : accepted_edits(*part)) run.accepted.push_back(edit);
-  run.scalars = read_scalars(file, "drumlin-measured-1");
-  run.unsteady = reasons_against(measured);
+  run.scalars = read_scalars(file, MeasuredRecord::format);
   if (unsteady == Unsteady::refuse)
     for (const std::string& reason : run.unsteady)
       problems.push_back({file.string(), 0, 0, "steadiness", reason,
                           "a steady run, or --accept-unsteady where the command has it"});
   check_frame(profile_file, run.profiles.header, RunSide::particles, problems);
-  const Json settings = measured.value("settings", Json());
-  run.scales = scales_in(file, settings, problems);
-  run.reduced = reduced_in(file, measured, profile_file, run.profiles.header, problems);
+  check_against_header(profile_file, run.profiles.header, file, measured.settings, run.reduced, problems);
   throw_if_any(problems);
-  require_number_near(profile_file, run.profiles.header, &RunHeader::diameter_m, run.scales.length_m,
-                      "settings.scales.length_m of measured.json", problems);
-  check_against_settings(profile_file, run.profiles.header, settings,
-                         {{&RunHeader::rotation, "rotation"},
-                          {&RunHeader::drum_radius, "drum_radius"},
-                          {&RunHeader::theta_deg, "frame_angle_deg"}},
-                         problems);
   check_layers(profile_file, run.profiles, problems);
   run.slices = slices_below(measured_files, run.profiles, problems);
   run.files = std::move(run_files), run.measured_files = std::move(measured_files);
@@ -217,30 +178,23 @@ FlowRun read_flow_run(const fs::path& folder, FlowGeometry asked) {
                      ": holds no flow.json: no continuum flow, or one that was not finished");
   ResultFolder files = open_flow_run(folder);
   for (const char* name : {"flow.json", "profiles.csv", "flow_scene.toml"}) (void)checked_file(files, name);
-  const Json flow = read_json(file, "drumlin-flow-run-2");
+  const auto flow = read_record<FlowRecord>(file);
   Problems problems;
-  const Json geometry = flow.value("geometry", Json(name_of(Geometry::drum)));
-  const bool is_drum = geometry == name_of(Geometry::drum);
-  if (asked == FlowGeometry::drum && !is_drum)
-    problems.push_back({file.string(), 0, 0, "geometry", "is " + plain_text(geometry), "\"drum\""});
+  const std::string drum = name_of(Geometry::drum), geometry = flow.geometry.value_or(drum);
+  if (asked == FlowGeometry::drum && geometry != drum)
+    problems.push_back({file.string(), 0, 0, "geometry", "is " + geometry, "\"drum\""});
   for (const std::string& sentence : limits_missed_by(folder))
     problems.push_back({file.string(), 0, 0, "missed", sentence, "a flow that misses nothing (exit code 0)"});
   throw_if_any(problems);
-  FlowRun run{name_of_folder(folder), folder, read_profiles(profile_file), {}, {}, false};
-  run.accepted = accepted_edits(files);
+  FlowRun run{name_of_folder(folder), folder, read_profiles(profile_file), {}, flow.settings.scales,
+              flow.reduced,           {},     accepted_edits(files)};
   run.files = std::move(files);
-  if (!is_drum) complete_gap_header(run.profiles.header);
-  run.scalars = read_scalars(file, "drumlin-flow-run-2");
-  add_law_band(run.scalars, flow);
+  if (geometry != drum) complete_gap_header(run.profiles.header);
+  run.scalars = read_scalars(file, FlowRecord::format);
+  add_law_band(run.scalars, flow.law_band);
   check_frame(profile_file, run.profiles.header, RunSide::continuum, problems);
-  run.scales = scales_in(file, flow.value("settings", Json()), problems);
-  run.reduced = reduced_in(file, flow, profile_file, run.profiles.header, problems);
+  check_against_header(profile_file, run.profiles.header, file, flow.settings, run.reduced, problems);
   throw_if_any(problems);
-  require_number_near(profile_file, run.profiles.header, &RunHeader::diameter_m, run.scales.length_m,
-                      "settings.scales.length_m of flow.json", problems);
-  check_against_settings(profile_file, run.profiles.header, flow.value("settings", Json()),
-                         {{&RunHeader::rotation, "rotation"}, {&RunHeader::drum_radius, "drum_radius"}},
-                         problems);
   check_layers(profile_file, run.profiles, problems);
   throw_if_any(std::move(problems));
   return run;
