@@ -122,15 +122,17 @@ int import_foreign(const ImportOptions& options) {
     const fs::path& made = results.begin();
     make_folders(made / "snapshots");
     replace_file(made / "import.toml", particles::import_description_text(description));
-    const Json given{{"output", made.string()},
-                     {"files", {{"grains", texts_of(grains)}, {"contacts", texts_of(contacts)}}}};
+    replace_file(made / "files.json",
+                 Json{{"grains", texts_of(grains)}, {"contacts", texts_of(contacts)}}.dump());
     Progress progress;
     Json report;
-    work_for_script("../importing/command.py", [&](const Json& so_far) {
-      if (report = so_far; progress.due() && !report.empty())
-        progress.show(fmt::format("import  {} snapshots", report.at("snapshots").dump()));
-      return so_far.empty() ? given : Json::object();
+    (void)output_of_script("../importing/command.py", {made.string()}, [&](const std::string& line) {
+      if (!line.starts_with("{")) return false;
+      report = Json::parse(line);
+      if (progress.due()) progress.show(fmt::format("import  {} snapshots", report.at("snapshots").dump()));
+      return true;
     });
+    fs::remove(made / "files.json");
     progress.finish();
     write_json(made / "run.json", record_of(description, *options.description, names, report));
     return {summary_of(run, description, report)};

@@ -30,6 +30,7 @@
 #include "coupling/core/files/text_file.hpp"
 #include "coupling/core/machine/own_costs.hpp"
 #include "particles/io/checkpoint_file.hpp"
+#include "particles/io/run_folder.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/lab/block_problem.hpp"
 #include "particles/lab/contact_problem_file.hpp"
@@ -317,7 +318,7 @@ class ParticleRun {
 
 /// Lets the lists of grains that are in memory be those that stand in the run folder.
 void read_lists_from(const fs::path& folder, particles::Scene& scene) {
-  const auto names = grain_list_names(scene);
+  const auto names = particles::grain_list_names(scene);
   const auto lists = lists_of(scene);
   for (std::size_t k = 0; k < lists.size(); ++k)
     if (lists[k]->text) lists[k]->file = folder / names[k], lists[k]->text.reset();
@@ -352,7 +353,7 @@ int run(const RunOptions& options, particles::World* world) {
   const CaughtInterruptions caught;
   const bool longer = options.extend_seconds.has_value();
   const ExistingOutput existing = longer ? ExistingOutput::resume : options.existing;
-  std::string resolved = particles::scene_text(as_recorded(scene));
+  std::string resolved = particles::scene_text(particles::as_recorded(scene));
   if (options.existing == ExistingOutput::resume && !longer && is_finished(options.output, scene, resolved))
     return static_cast<int>(ExitCode::done);
   GrowingOutput output({options.output, existing, "run", inputs}, run_file_names());

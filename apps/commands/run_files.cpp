@@ -1,13 +1,13 @@
 #include "apps/commands/run_files.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/files/input_file.hpp"
 #include "coupling/core/files/last_whole.hpp"
 #include "coupling/core/files/text_file.hpp"
+#include "particles/io/run_folder.hpp"
 
 namespace drumlin::apps {
 
@@ -17,25 +17,9 @@ namespace {
 constexpr std::size_t largest_waiting = 1 << 16;  // bytes
 }
 
-particles::Scene as_recorded(particles::Scene scene) {
-  const auto names = grain_list_names(scene);
-  const auto lists = lists_of(scene);
-  for (std::size_t k = 0; k < lists.size(); ++k) lists[k]->file = names[k];
-  return scene;
-}
-
-std::vector<std::string> grain_list_names(particles::Scene scene) {
-  std::vector<std::string> names;
-  if (std::holds_alternative<particles::ListedGrains>(scene.grains.source)) names.push_back(grain_list);
-  for (std::size_t g = 0; g < scene.grains.groups.size(); ++g)
-    if (std::holds_alternative<particles::ListedGrains>(scene.grains.groups[g].source))
-      names.push_back(fmt::format("grains-{}.csv", g + 1));
-  return names;
-}
-
 std::vector<std::string> run_file_names() {
   return {"scene.toml",
-          grain_list,
+          particles::grain_list,
           "grains-*.csv",
           "run.json",
           "log.csv",

@@ -9,19 +9,11 @@
 
 #include "coupling/core/files/descriptor.hpp"
 #include "coupling/core/files/manifest.hpp"
-#include "particles/scene/scene.hpp"
 
 namespace drumlin::apps {
 
-/// The file in a run folder that holds a copy of the grain list of its scene.
-inline constexpr const char* grain_list = "grains.csv";
-/// Names of the files in a run folder that hold copies of the scene's lists of grains, in the order of
-/// lists_of().
-std::vector<std::string> grain_list_names(particles::Scene scene);
 /// Names of all files of a run.
 std::vector<std::string> run_file_names();
-/// The scene as it stands in the run folder.
-particles::Scene as_recorded(particles::Scene scene);
 
 /// A table of a run, one line per logged step; on resuming cut back to the length that the checkpoint names.
 class RunTable {

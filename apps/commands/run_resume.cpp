@@ -13,6 +13,7 @@
 #include "coupling/core/documents/json_document.hpp"
 #include "coupling/core/files/last_whole.hpp"
 #include "coupling/core/files/text_file.hpp"
+#include "particles/io/run_folder.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "particles/stepping/prolong.hpp"
 
@@ -30,7 +31,7 @@ void same_scene_or_refuse(const fs::path& output, const std::string& theirs, con
 }
 
 std::map<std::string, std::string> list_texts(particles::Scene scene) {
-  const auto names = grain_list_names(scene);
+  const auto names = particles::grain_list_names(scene);
   std::map<std::string, std::string> texts;
   std::size_t k = 0;
   for (const auto* list : lists_of(scene))
@@ -103,7 +104,7 @@ void extend(GrowingOutput& output, double seconds, particles::Scene& scene,
   const double longer = particles::duration_s(scene.stages.back()) - before;
   if (std::abs(longer - seconds) > 1e-6 * seconds)
     print_out(fmt::format("--extend: by {:.6g} s, whole intervals between snapshots\n", longer));
-  from->scene = particles::scene_text(as_recorded(scene));
+  from->scene = particles::scene_text(particles::as_recorded(scene));
   // What an interruption leaves is a run of the longer scene or of the shorter one, never a mixture.
   output.forget(checkpoint_name);
   output.forget(previous_checkpoint_name);

@@ -84,7 +84,7 @@ void write_flow_of_fields(const fs::path& file, const fs::path& folder) {
     const double d = needed_number(profiles.header, &RunHeader::diameter_m, file.string());
     scales = scales_of(d, 0, 1);  // of the density a profile says nothing, and no error depends on it
   } else {
-    if (is_csv) (void)study_by_script("fields.py", {file.string(), maps.string()});
+    if (is_csv) (void)output_of_script("../study/fields.py", {file.string(), maps.string()});
     FieldMap map = read_field_map(is_csv ? maps : file);
     add_invariants(map);
     write_field_map(maps, map);

@@ -102,7 +102,7 @@ std::string studied(const Json& given, const fs::path& folder) {
   const fs::path file = folder / "given.json";
   write_json(file, given);
   const std::string said =
-      study_by_script("command.py", {folder.string(), paper_data_folder().string(), file.string()});
+      output_of_script("../study/command.py", {folder.string(), paper_data_folder().string(), file.string()});
   fs::remove(file);
   return said;
 }

@@ -1,16 +1,18 @@
 """Sweeps and price lists over a flow of the continuum: meshes, eps and tolerances compared by the scalars and the profile of v_x, effects by what they
 change. Each flow is solved by drumlin-flow, of which nothing but its numbers is kept."""
 
-import json
 import math
 import os
 import shutil
 import statistics
+import subprocess
 from typing import NamedTuple
 
 import result_files
 import whole_file
-from sweeping import (Failure, InputError, NotConverged, Points, advice, axes_of, mark_fronts, number_or_none, numbers_of, plain, without_repeats)
+from drumlin import _drumlin
+from drumlin.errors import InputError, IoError, NotConvergedError
+from sweeping import Points, advice, axes_of, ended, json_of, mark_fronts, number_or_none, numbers_of, plain, say, without_repeats
 
 FIELDS = {"mesh": "levels", "eps": "eps", "tolerance": "tolerance"}  # of Settings, by axis
 AXES = list(FIELDS)
@@ -114,10 +116,6 @@ def asks_for_work(options):
     return options["repeats"] > 1 or bool(options["neighbour"]) or options["ranks"] != [1]
 
 
-def json_of(file):
-    return json.loads(file.read_text(encoding="utf-8"))
-
-
 def results_in(folder):
     """The numbers of a solved flow, as its point has them."""
     flow = json_of(folder / "flow.json")
@@ -128,6 +126,7 @@ def results_in(folder):
     unknowns = {finest - place: mesh["unknowns"] for place, mesh in enumerate(reversed(flow["meshes"]))}
     point["assembled_unknowns"] = float(sum(unknowns.get(mesh, 0) * (2 if iteration == 1 else 1) for mesh, iteration in zip(table["mesh"], table["iteration"])))
     point["scalars"] = {name: value for name, value in flow["meshes"][-1].items() if name not in ("cells", "unknowns")}
+    point["peak_memory_mb"] = max(rank["peak_memory_mb"] for rank in flow["rank_costs"])
     if flow["closed_form"]:
         closed = flow["closed_form"]
         point["closed_form"] = {"v_x": closed["closed_form_error"], "v_x_mesh": closed["mesh_error"], "scalars": closed["scalars"]}
@@ -154,14 +153,12 @@ def entry_of(flow, repetitions):
 class Flows:
     """Solves flows as points of a folder; subclasses plan them."""
 
-    def __init__(self, kind, ask, options, facts):
-        self.ask, self.options, self.facts = ask, options, facts
+    def __init__(self, kind, options):
+        self.options = options
+        self.facts = facts = _drumlin.flow_facts(options["scene"], options["set"], options["rheology"])
         shared = {"kind": kind, "scene": facts["scene"], "rheology": facts["law"]}
         shared |= {key: options[name] for key, name in (("neighbour", "neighbour"), ("time_limit_s", "time-limit"), ("against", "against")) if options[name]}
-        self.points = Points(ask, options, shared, [options["scene"], options["rheology"]])
-
-    def say(self, line):
-        self.ask("say", text=line + "\n")
+        self.points = Points(options, shared, [options["scene"], options["rheology"]])
 
     def solved(self, flow):
         """Cost, scalars and profile of v_x; "failure" in place of results where no flow was found within the time."""
@@ -186,29 +183,29 @@ class Flows:
         limit = self.options["time-limit"]
         words = [flow.scene, "--rheology", flow.law, "-o", str(folder)] + (["--from", flow.start] if flow.start else [])
         words += [word for change in ["solver.sensitivity=false", "output.figures=false", *flow.changes] for word in ("--set", change)]
-        end = self.ask("start", program="drumlin-flow", words=words, ranks=flow.ranks, time_limit_s=limit, output="drop")
-        if end["code"] == 2:
+        code, _ = ended(["drumlin-flow", *words], flow.ranks, limit, subprocess.DEVNULL)
+        if code == 2:
             raise InputError(f"{flow.name}: drumlin-flow refused the scene or the law")
-        if end["code"] not in (0, 3) and not end["timed_out"]:
-            raise Failure(f"{flow.name}: drumlin-flow ended with exit code {end['code']}")
-        if end["timed_out"]:
+        if code not in (0, 3, None):
+            raise IoError(f"{flow.name}: drumlin-flow ended with exit code {code}")
+        if code is None:
             failure = f"the flow was not found within {limit:g} s"
         elif not (folder / "flow.json").exists():
             failure = "the flow did not converge"
-        elif end["code"] == 3 and flow.against:
+        elif code == 3 and flow.against:
             failure = json_of(folder / "flow.json")["missed"][0]
         else:  # how far a mesh or an eps is off is what a sweep measures; nobody compares such a flow with runs
-            return results_in(folder) | {"peak_memory_mb": end["peak_memory_mb"]}
+            return results_in(folder)
         return {"failure": failure, "cpu_seconds": None}
 
     def compared(self, folder, runs):
         """Errors of the flow against measured runs, by `drumlin compare --study`: targets, verdict, scalars of both."""
         study = folder / "study"
-        end = self.ask("start", program="drumlin", words=["compare", "-o", str(study), "--study", *runs, str(folder)], output="tell")
-        if end["code"] == 2:
-            raise InputError("--against: the flow and the runs cannot be compared:\n" + end["said"])
-        if end["code"]:
-            raise Failure(f"drumlin compare --study ended with exit code {end['code']}:\n{end['said']}")
+        code, said = ended(["drumlin", "compare", "-o", str(study), "--study", *runs, str(folder)], output=subprocess.PIPE)
+        if code == 2:
+            raise InputError("--against: the flow and the runs cannot be compared:\n" + said)
+        if code:
+            raise IoError(f"drumlin compare --study ended with exit code {code}:\n{said}")
         speeds = json_of(study / "study.json")["speeds"]
         if len(speeds) != 1:
             raise InputError("--against: the runs are not all of the flow's speed of rotation")
@@ -234,15 +231,15 @@ class Flows:
         """The neighbour's folder, which other flows can start from; solved now if it is not there."""
         neighbour = flow._replace(name=flow.name + "-neighbour", changes=flow.changes + self.options["neighbour"], against=())
         folder = self.points.folder / neighbour.name
-        if not self.ask("holds results", folder=str(folder), file="flow.json"):
+        if not _drumlin.holds_results(str(folder), "flow.json"):
             found = self.solve(self.emptied(neighbour.name), neighbour)
             if "failure" in found:
-                raise NotConverged(f"--neighbour: {found['failure']}")
+                raise NotConvergedError(f"--neighbour: {found['failure']}")
         return str(folder)
 
     def say_work(self, entry):
         name = f"{entry['ranks']} rank{'s' if entry['ranks'] > 1 else ''}, {'cold' if entry['start'] == 'cold' else 'from a neighbour'}"
-        self.say(f"    {name}: " + (entry["failure"] if "failure" in entry else (
+        say(f"    {name}: " + (entry["failure"] if "failure" in entry else (
             f"{entry['iterations']} iterations, {entry['seconds']['least']:.1f} s least, {entry['seconds']['median']:.1f} s median, "
             f"{entry['cpu_seconds']['least']:.1f} s of processors, {entry['peak_memory_mb']:.0f} MB")))
 
@@ -253,20 +250,20 @@ class Flows:
 class Sweep(Flows):
     """One curve through the scene for each axis."""
 
-    def __init__(self, ask, options, facts):
+    def __init__(self, options):
         if not options["output"]:
             raise InputError("cost: a sweep needs --output COST for its points")
         if options["against"] or options["variants"]:
             raise InputError("cost: --against and --variants go with --effects")
         self.axes = axes_of(options["sweep"], AXES)
-        super().__init__("continuum", ask, options, facts)
+        super().__init__("continuum", options)
         self.standard, self.surface_cell = None, 0
 
     def execute(self):
-        self.say(f"{self.options['scene']}: the scene as it is")
+        say(f"{self.options['scene']}: the scene as it is")
         as_it_is = self.solved(self.flow("as-it-is", []))
         if "failure" in as_it_is:
-            raise NotConverged(f"{self.options['scene']}: {as_it_is['failure']}")
+            raise NotConvergedError(f"{self.options['scene']}: {as_it_is['failure']}")
         settings = as_it_is["settings"]
         self.standard = Settings(settings["levels"], settings["regularisation_shear_rate"], settings["tolerance"])
         self.surface_cell = settings["surface_cell"]
@@ -280,7 +277,7 @@ class Sweep(Flows):
             row |= {key: found[key] for key in ("unknowns", "iterations", "seconds", "cpu_seconds", "load_before", "scalars", "closed_form", "failure")
                     if key in found}
             seconds = "-" if found["cpu_seconds"] is None else f"{found['cpu_seconds']:.2f}"
-            self.say(f"{seconds:>9} s  {row['name']}" + (f": {found['failure']}" if "failure" in found else ""))
+            say(f"{seconds:>9} s  {row['name']}" + (f": {found['failure']}" if "failure" in found else ""))
             rows[here] = self.with_work(row, flow, found)
         reference = None if "closed_form" in as_it_is else self.reference(curves)
         points = list(rows.values())
@@ -289,14 +286,14 @@ class Sweep(Flows):
         quantities = without_repeats([name for row in points for name in row["errors"]])
         mark_fronts(points, quantities)
         self.say_table(points, quantities)
-        self.ask("say", text=advice(points, quantities, lambda point: "--set " + " --set ".join(
-            changes_of(Settings(*(point[key] for key in Settings._fields)), self.standard, self.surface_cell))))
+        print(advice(points, quantities, lambda point: "--set " + " --set ".join(
+            changes_of(Settings(*(point[key] for key in Settings._fields)), self.standard, self.surface_cell))), end="")
         content = {"format": "drumlin-cost-1", "kind": "continuum"} | self.head(settings) | {
             "reference": "closed form" if reference is None else {
                 key: reference[key] for key in ("levels", "eps", "tolerance", "unknowns", "cpu_seconds", "scalars")},
             "quantities": quantities, "points": points, "scene": self.facts["scene"]}
-        self.ask("finish", content=content, drawings={"work_precision.py": ""})
-        self.say(f"{self.options['output']}/cost.json")
+        self.points.finish(content, "work_precision")
+        say(f"{self.options['output']}/cost.json")
 
     def flow(self, name, changes):
         return Flow(name, self.options["scene"], self.options["rheology"], self.options["set"] + changes)
@@ -306,10 +303,10 @@ class Sweep(Flows):
 
     def reference(self, curves):
         finest = reference_of(self.standard, curves)
-        self.say(f"{'':>11}  reference {finest.name}")
+        say(f"{'':>11}  reference {finest.name}")
         found = self.solved(self.flow_with(finest))
         if "failure" in found:
-            raise NotConverged(f"the reference ({finest.name}) was not found: sweep over coarser values")
+            raise NotConvergedError(f"the reference ({finest.name}) was not found: sweep over coarser values")
         return found | finest._asdict()
 
     @staticmethod
@@ -327,10 +324,10 @@ class Sweep(Flows):
             error = point["errors"].get(name)
             return f" {'-' if error is None else f'{error:.2g}' + ('*' if name in point['pareto'] else ' '):>12}"
 
-        self.say(f"{'processor':>10}" + "".join(f" {name:>12}" for name in quantities) + "  (relative errors; * on the front)")
+        say(f"{'processor':>10}" + "".join(f" {name:>12}" for name in quantities) + "  (relative errors; * on the front)")
         for point in points:
             if "failure" not in point:
-                self.say(f"{point['cpu_seconds']:8.2f} s" + "".join(cell(point, name) for name in quantities) +
+                say(f"{point['cpu_seconds']:8.2f} s" + "".join(cell(point, name) for name in quantities) +
                          f"  {point['name']}{' (the scene)' if point['default'] else ''}")
 
 
@@ -342,7 +339,7 @@ class Prices(Flows):
         scene, plain_law = str(folder / "plain-scene.toml"), str(folder / "plain-law.toml")
         whole_file.write_text(scene, facts["plain_scene"])
         whole_file.write_text(plain_law, facts["plain_law"])
-        self.say(f"{options['scene']}: processor seconds, iterations, scalars (what the effect changes)")
+        say(f"{options['scene']}: processor seconds, iterations, scalars (what the effect changes)")
         against = tuple(options["against"])
         flows = {"none": Flow("none", scene, plain_law, [], against=against)}
         for name, effects in variants.items():
@@ -363,13 +360,12 @@ class Prices(Flows):
             point = self.solved(flow)
             base = base or point
             if "failure" in base:
-                raise NotConverged(f"without any effect: {base['failure']}")
+                raise NotConvergedError(f"without any effect: {base['failure']}")
             row = self.row(name, point, base)
             self.say_row(row)
             rows.append(self.with_work(row, flow, point))
         names = {"against": [os.path.basename(run) for run in options["against"]]} if options["against"] else {}
-        self.ask("finish", drawings={"price_figures.py": ""}, content={"format": "drumlin-flow-effect-prices-1"} | self.head(base["settings"]) | names | {
-            "effects": rows})
+        self.points.finish({"format": "drumlin-flow-effect-prices-1"} | self.head(base["settings"]) | names | {"effects": rows}, "price_figures")
 
     @staticmethod
     def row(name, point, base):
@@ -384,7 +380,7 @@ class Prices(Flows):
     def say_row(self, row):
         name, failure = f"{row['effect']:<16}", row.get("refused", row.get("failure"))
         if failure:
-            self.say(f"{name} {failure}")
+            say(f"{name} {failure}")
             return
         text = f"{name} {row['cpu_seconds']:8.1f} s {row['iterations']:6}"
         text += "".join(f"  {scalar} {row['scalars'][scalar]:.4g} ({change:+.2g})" for scalar, change in row["change"].items())
@@ -395,12 +391,16 @@ class Prices(Flows):
             text += "\n    " + "".join(f"  {target['quantity']}{' ' + target['zone'] if 'zone' in target else ''} {target['value']:.3f}"
                                        f"{'*' if target['outcome'] == 'missed' else ''}" for target in against["targets"] if target["value"] is not None)
             text += f"  ({against['verdict']['met']} met, {against['verdict']['missed']} missed)"
-        self.say(text)
+        say(text)
 
 
-def price_effects(ask, options, facts):
+def sweep(options):
+    Sweep(options).execute()
+
+
+def price_effects(options):
     """As Prices."""
     if not options["output"]:
         raise InputError("cost: the effects of a flow need --output COST for its points")
     variants = variants_of(options["variants"])
-    Prices("continuum effects", ask, options, facts).execute(variants)
+    Prices("continuum effects", options).execute(variants)

@@ -1,12 +1,15 @@
 """Sweeps and price lists over a scene of particles. Solvers, tolerances and time steps are compared from one state by the velocities that they lead
 to and, on request, by what long runs measure."""
 
-import json
 import os
+import pathlib
 import shutil
+import sys
 from typing import NamedTuple
 
-from sweeping import InputError, Points, ProgramFailed, advice, axes_of, mark_fronts, names_of, numbers_of, without_repeats
+from drumlin import _drumlin
+from drumlin.errors import InputError
+from sweeping import Points, advice, axes_of, ended, json_of, mark_fronts, names_of, numbers_of, say, without_repeats, write_cost
 
 AXES = ["solver", "tolerance", "step"]
 # "solver" is of the same step with a much tighter tolerance: what the contact solve alone leaves.
@@ -59,11 +62,16 @@ def last_followed(errors):
     return max((mark for mark, error in enumerate(errors) if error is not None and error < LARGEST_FLOOR), default=0)
 
 
+def work_on(options):
+    return _drumlin.ParticleWork(options["scene"], options["set"], options["threads"])
+
+
 class Sweep:
     """All points of a plan and their report."""
 
-    def __init__(self, ask, options, facts):
-        self.ask, self.options, self.facts = ask, options, facts
+    def __init__(self, options):
+        self.options, self.work = options, work_on(options)
+        self.facts = facts = self.work.facts
         self.standard = Settings(facts["solver"], facts["tolerance"], facts["step_s"])
         self.plan = plan_of(self.standard, axes_of(options["sweep"], AXES), facts["solvers"])
         self.stretch_s = options["horizon"] or STANDARD_STEPS * self.standard.step_s
@@ -71,30 +79,27 @@ class Sweep:
             raise InputError("cost: a sweep needs --output COST for its points")
         start = options["from"] or "the beginning of the last stage"
         shared = {"kind": "particles", "scene": facts["scene"], "from": start, "horizon_s": self.stretch_s, "reference": self.plan.reference._asdict()}
-        self.points = Points(ask, options, shared, [options["scene"]] + ([options["from"] + "/run.json"] if options["from"] else []))
-        ask("begin")
-        self.say(f"{options['scene']}: {self.stretch_s:g} s from {start}, {len(self.plan.points)} points")
-
-    def say(self, line):
-        self.ask("say", text=line + "\n")
+        self.points = Points(options, shared, [options["scene"]] + ([options["from"] + "/run.json"] if options["from"] else []))
+        self.work.begin(f"{options['output']}/start.h5", options["from"])
+        say(f"{options['scene']}: {self.stretch_s:g} s from {start}, {len(self.plan.points)} points")
 
     def execute(self):
         reference = self.reference(self.plan.reference)
         finest = self.measured(self.plan.finest)
         horizon = self.horizon(finest)
-        self.say(f"{'processor':>10} {'sweeps':>8} {'missed':>8}" + "".join(f" {name:>12}" for name in QUANTITIES) +
+        say(f"{'processor':>10} {'sweeps':>8} {'missed':>8}" + "".join(f" {name:>12}" for name in QUANTITIES) +
                  "  (processor seconds per simulated one; relative errors)")
         points = [self.flat(settings, horizon) for settings in self.plan.points]
         if self.options["statistics"]:
             self.add_statistics(points)
         mark_fronts(points, QUANTITIES)
-        self.ask("say", text=advice(points, QUANTITIES, lambda point: (
+        print(advice(points, QUANTITIES, lambda point: (
             f"--set solver.name={point['solver']} --set solver.tolerance={point['tolerance']:g} "
-            f"--set stages.{self.facts['last_stage']}.time_step_s={point['step_s']:g}")))
+            f"--set stages.{self.facts['last_stage']}.time_step_s={point['step_s']:g}")), end="")
         self.report(finest["marks"], reference["marks"][horizon], horizon, points)
 
     def stretch(self, settings, **words):
-        return self.ask("stretch", **settings._asdict(), length_s=self.stretch_s, **words)
+        return self.work.stretch(_drumlin.StretchSettings(*settings, self.stretch_s), **words)
 
     def marks(self, found):
         steps = found[-1]["steps"]
@@ -105,9 +110,9 @@ class Sweep:
     def reference(self, settings):
         """Keeps where the grains are at each mark, too."""
         def do():
-            self.say(f"reference-{settings.name}")
+            say(f"reference-{settings.name}")
             load = os.getloadavg()[0]
-            found = self.stretch(settings, keep=str(self.points.folder / settings.name))
+            found = self.stretch(settings, saved=str(self.points.folder / settings.name))
             return settings._asdict() | {"load_before": load, "marks": self.marks(found["marks"])}
 
         return self.points.point(f"reference-{settings.name}", do)
@@ -129,7 +134,7 @@ class Sweep:
         """The mark at which all errors are read."""
         for mark in finest["marks"]:
             floor = {name: "nan" if error is None else f"{error:.2g}" for name, error in mark["errors"].items()}
-            self.say(f"floor after {mark['simulated_seconds']:g} s: field {floor['field']}, displacement {floor['displacement']}, "
+            say(f"floor after {mark['simulated_seconds']:g} s: field {floor['field']}, displacement {floor['displacement']}, "
                      f"velocity {floor['velocity']}, energy {floor['energy']}")
         return last_followed([mark["errors"]["field"] for mark in finest["marks"]])
 
@@ -141,7 +146,7 @@ class Sweep:
         row |= {key: point[key] for key in ("load_before", "cpu_seconds")}
         row |= {key: value for key, value in mark.items() if key not in ("simulated_seconds", "cpu_seconds")}
         errors = (row["errors"][name] for name in QUANTITIES)
-        self.say(f"{row['cpu_seconds']:8.2f} s {mark['sweeps'] / mark['steps']:8.1f} {100 * mark['missed_share']:6.1f} %" +
+        say(f"{row['cpu_seconds']:8.2f} s {mark['sweeps'] / mark['steps']:8.1f} {100 * mark['missed_share']:6.1f} %" +
                  "".join(f" {'-' if error is None else f'{error:.2g}':>12}" for error in errors) +
                  f"  {row['name']}{' (the scene)' if row['default'] else ''}")
         return row
@@ -160,11 +165,11 @@ class Sweep:
         goes on from its checkpoint. What it leaves is removed."""
         seconds, load = self.options["statistics"], os.getloadavg()[0]
         snapshots = max(LEAST_SNAPSHOTS, int(SNAPSHOTS_PER_SECOND * seconds + 0.5))
-        before = self.ask("lay down", **settings._asdict(), length_s=seconds, snapshots=snapshots, folder=str(folder))["steps"]
+        before = self.work.lay_down(_drumlin.StretchSettings(*settings, seconds), snapshots, str(folder))
         # A run most of whose steps missed a tolerance is a point of the sweep like others, which says so.
-        self.start(["run", str(folder / "scene.toml"), "-o", str(folder / "run"), "--threads", str(self.options["threads"]), "--resume"], (0, 3))
-        self.start(["measure", str(folder / "run"), "--parts", "none", "--resume"], (0,))
-        ran, measured = (json.loads((folder / "run" / name).read_text(encoding="utf-8")) for name in ("run.json", "measured/measured.json"))
+        self.run(["run", str(folder / "scene.toml"), "-o", str(folder / "run"), "--threads", str(self.options["threads"]), "--resume"], (0, 3))
+        self.run(["measure", str(folder / "run"), "--parts", "none", "--resume"], (0,))
+        ran, measured = (json_of(folder / "run" / name) for name in ("run.json", "measured/measured.json"))
         own = ran["steps"] - before
         scalars = {name: {"value": value["value"], "ci99": value["ci99"]} for name, value in measured.items()
                    if isinstance(value, dict) and "value" in value and "ci99" in value}
@@ -173,10 +178,11 @@ class Sweep:
                 "sweeps_mean": ran["cost"]["sweeps_mean"] * ran["steps"] / own, "missed_share": ran["unconverged_steps"] / own, "load_before": load,
                 "scalars": scalars}
 
-    def start(self, words, good):
-        code = self.ask("start", program="drumlin", words=words, output="show")["code"]
+    @staticmethod
+    def run(words, good):
+        code, _ = ended(["drumlin", *words])
         if code not in good:
-            raise ProgramFailed(code)
+            sys.exit(code)  # it has said why
 
     def report(self, floors, reference, horizon, points):
         options, facts = self.options, self.facts
@@ -187,37 +193,42 @@ class Sweep:
                    "floors": [{key: mark[key] for key in ("simulated_seconds", "errors")} for mark in floors],
                    "reference": self.plan.reference._asdict() | {"cpu_seconds": reference["cpu_seconds"]},
                    "quantities": QUANTITIES} | statistics | {"points": points, "scene": facts["scene"]}
-        self.ask("finish", content=content, drawings={"work_precision.py": ""})
-        self.say(f"{options['output']}/cost.json")
+        self.points.finish(content, "work_precision")
+        say(f"{options['output']}/cost.json")
 
 
-def price_effects(ask, options, facts):
+def sweep(options):
+    Sweep(options).execute()
+
+
+def price_effects(options):
     """The scene as it is, each of its effects removed, each absent one added, one after the other: what each takes and changes."""
-    if options["output"]:
-        ask("claim", shared=None, inputs=[options["scene"]])
-    ask("say", text=f"{options['scene']}: the first {options['seconds']:g} s; results are means over the second half\n" +
-        ("reduced\n" if facts["reduced"] else "") +
+    work = work_on(options)
+    facts, variants = work.facts, work.variants()
+    output = options["output"] and _drumlin.StagedOutput(options["output"], "cost", options["resume"], options["overwrite"], [options["scene"]])
+    say(f"{options['scene']}: the first {options['seconds']:g} s; results are means over the second half\n" + ("reduced\n" if facts["reduced"] else "") +
         "     time     memory unknowns sweeps  missed energy J/kg centre z   slope   overlap  scene\n"
-        "                                                             mm     deg         d\n")
+        "                                                             mm     deg         d")
     rows = []
     # Once more at the end: what differs between the two is noise of the machine.
-    for number in [*range(len(facts["variants"])), 0]:
-        row = dict(facts["variants"][number])
+    for number in [*range(len(variants)), 0]:
+        row = dict(variants[number])
         refused = row.pop("refused")
         row["name"] = ("as it is, again" if rows else "as it is") if row["change"] == "none" else (
             ("without " if row["change"] == "removed" else "with ") + row["effect"] + (": " + row["with_it"] if row["with_it"] else ""))
         if refused:
             row["refused"] = refused
-            ask("say", text=f"{'not possible':>88}  {row['name']}: {refused}\n")
+            say(f"{'not possible':>88}  {row['name']}: {refused}")
         else:
-            row |= ask("price", variant=number)
+            row |= work.price(number, options["seconds"])
             slope = "-" if row["slope_deg"] is None else f"{row['slope_deg']:.2f}"
-            ask("say", text=f"{row['cpu_seconds']:7.2f} s {row['bytes'] / (1 << 20):7.2f} MB {row['unknowns']:8.0f} {row['sweeps']:6.1f} "
+            say(f"{row['cpu_seconds']:7.2f} s {row['bytes'] / (1 << 20):7.2f} MB {row['unknowns']:8.0f} {row['sweeps']:6.1f} "
                 f"{100 * row['missed_share']:5.1f} % {row['kinetic_energy_J_kg']:10.3g} {row['center_of_mass_mm'][1]:8.2f} {slope:>7} "
-                f"{row['overlap_d']:9.2g}  {row['name']}\n")
+                f"{row['overlap_d']:9.2g}  {row['name']}")
         rows.append(row)
-    if options["output"]:
+    if output:
         command = f"drumlin cost --effects {os.path.basename(options['scene'])} --seconds {options['seconds']:g} --threads {options['threads']}"
-        ask("finish", drawings={"price_figures.py": ""}, content={
+        write_cost(pathlib.Path(output.folder), {
             "format": "drumlin-effect-prices-1", "title": facts["title"], "reduced": facts["reduced"], "command": command,
-            "simulated_seconds": options["seconds"], "threads": options["threads"], "variants": rows})
+            "simulated_seconds": options["seconds"], "threads": options["threads"], "variants": rows}, "price_figures")
+        output.publish()

@@ -1,29 +1,47 @@
 """What all sweeps of `drumlin cost` share: the axes that are asked for, fronts of work and precision, advice. A point is a dict as in cost.json
 (docs/formats/cost.md); an error that is not known is None or absent."""
 
+import contextlib
+import importlib
+import json
 import math
+import os
 import pathlib
+import subprocess
+
+import isolated
+import whole_file
+from drumlin import _drumlin
+from drumlin.commands import program
+from drumlin.errors import InputError
+
+POINT, SWEEP = "drumlin-cost-point-1", "drumlin-cost-sweep-1"
+RESULTS = ["sweep.json", "cost.json", "start.h5", "work_precision.png", "statistics.png", "prices.png", "effects.png", "points/*.json", "points/*.h5",
+           "points/*/scene.toml"]
+GRACE_S = 10  # for a program that is told to end
 
 
-class Failure(Exception):
-    """Ends the command with this exit code and text."""
-    code = 74
+def say(text):
+    print(text, flush=True)
 
 
-class InputError(Failure):
-    code = 2
-
-
-class NotConverged(Failure):
-    code = 3
-
-
-class ProgramFailed(Failure):
-    """A program that has said itself why it failed."""
-
-    def __init__(self, code):
-        super().__init__("")
-        self.code = code
+def ended(words, ranks=1, time_limit_s=None, output=None):
+    """(exit code, what it printed) of a program of ours, the first of `words`, on so many MPI processes. The exit code is None where its time was over.
+    output: as of subprocess; None shows it."""
+    started = (["mpirun", "-n", str(ranks)] if ranks > 1 else []) + [program(words[0]), *words[1:]]
+    root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+    with subprocess.Popen(started, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT if output == subprocess.PIPE else None,
+                          env=os.environ | root, text=True, errors="surrogateescape") as process:
+        try:
+            said, _ = process.communicate(timeout=time_limit_s)
+            return process.returncode, said
+        except subprocess.TimeoutExpired:
+            return None, ""
+        finally:  # KeyboardInterrupt, too
+            process.terminate()
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(GRACE_S)
+            process.kill()
 
 
 def axes_of(words, allowed):
@@ -129,16 +147,48 @@ def advice(points, quantities, lines_of):
     return "\n".join(lines) + "\n"
 
 
-class Points:
-    """The points of OUT, each done once: what an earlier call has finished is taken as it is."""
+def json_of(file):
+    return json.loads(pathlib.Path(file).read_text(encoding="utf-8"))
 
-    def __init__(self, ask, options, shared, inputs):
-        ask("claim", shared=shared, inputs=inputs)
-        self.ask, self.folder = ask, pathlib.Path(options["output"]) / "points"
+
+def write_json(file, content):
+    whole_file.write_text(file, json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+
+
+def write_cost(folder, content, draw):
+    """cost.json, after the figures that `draw`, a script, makes of it."""
+    content = content | {"provenance": _drumlin.provenance()}
+    isolated.load_matplotlib(pathlib.Path(isolated.__file__).parent)
+    importlib.import_module(draw).draw_all(content, folder)
+    write_json(folder / "cost.json", content)
+
+
+class Points:
+    """The points of COST, each done once: what an earlier call has finished is taken as it is. `shared`: what all of them have in common; points that
+    share something else are refused."""
+
+    def __init__(self, options, shared, inputs):
+        folder = pathlib.Path(options["output"])
+        self.output = _drumlin.GrowingOutput(options["output"], "cost", options["resume"], options["overwrite"], inputs, RESULTS)
+        self.folder, shared, file = folder / "points", {"format": SWEEP} | shared, folder / "sweep.json"
+        before = json_of(file) if file.exists() else shared
+        for key, value in shared.items():
+            if before.get(key) != value:
+                raise InputError(f"{folder}: its points were made with another '{key}'; name another folder or give --overwrite")
+        self.folder.mkdir(exist_ok=True)
+        self.output.forget("*")  # what is written anew beside the points
+        self.output.save()
+        write_json(file, shared)
 
     def point(self, name, do):
-        kept = self.ask("kept", name=name)
-        if kept is None:
-            self.ask("keep", name=name, point=do())
-            kept = self.ask("kept", name=name)
-        return kept
+        listed = f"points/{name}.json"
+        file = self.folder / f"{name}.json"
+        if listed not in self.output:
+            write_json(file, {"format": POINT, "name": name} | do())
+            self.output.list(listed)
+            self.output.save()
+        return json_of(file)
+
+    def finish(self, content, draw):
+        write_cost(self.folder.parent, content, draw)
+        self.output.finish()

@@ -1,8 +1,8 @@
 """Runs a script as `python3 -I` does, with the script's own folder, that of the figures and the package that they lie in, and nothing else, added to
 what it may import from.
 SIGINT, SIGTERM and SIGHUP stop it once, as Ctrl-C does, so that it leaves no part of a file.
-A file that the system does not give or take ends it with one line, "FILE: why", and exit code 74; missing memory or a missing module likewise; a file
-that does not fit (result_files.py) with its own code.
+A file that the system does not give or take ends it with one line, "FILE: why", and exit code 74; missing memory or a missing module likewise; an error
+that has an exit code (drumlin.errors, result_files.DoesNotFit) with its text and that.
 
 usage: python3 -I -B isolated.py SCRIPT [WORD...]
 """
@@ -14,7 +14,7 @@ import signal
 import sys
 
 STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-NO_FILE = 74  # exit code of the commands for files that cannot be read or written
+NO_FILE, INTERRUPTED = 74, 130  # exit codes of the commands
 
 
 def stop(*_):
@@ -44,6 +44,7 @@ if __name__ == "__main__":
     packages = next((k for k, path in enumerate(sys.path) if path.endswith("-packages")), len(sys.path))
     sys.path.insert(packages, str(pathlib.Path(__file__).absolute().parents[2]))
     sys.argv = sys.argv[1:]
+    sys.stderr.reconfigure(encoding="utf-8", errors="surrogateescape")  # names of files are bytes
     try:
         if script.parent == figures:  # pages draw nothing
             load_matplotlib(script.parent)
@@ -54,13 +55,13 @@ if __name__ == "__main__":
     except ImportError as error:
         print(f"Python could not load a module: {error}", file=sys.stderr)
         sys.exit(NO_FILE)
-    except ValueError as error:
-        if not hasattr(error, "exit_code"):
-            raise
-        print(error, file=sys.stderr)
-        sys.exit(error.exit_code)
-    except OSError as error:
-        if error.filename is None or error.strerror is None:
+    except KeyboardInterrupt:
+        sys.exit(INTERRUPTED)
+    except (ValueError, OSError, RuntimeError) as error:
+        if hasattr(error, "exit_code"):
+            print(error, file=sys.stderr)
+            sys.exit(error.exit_code)
+        if getattr(error, "filename", None) is None or error.strerror is None:
             raise
         print(f"{error.filename}: {error.strerror}", file=sys.stderr)
         sys.exit(NO_FILE)

@@ -147,8 +147,7 @@ def errors(report):
 FIGURES = {"drumlin-effect-prices-1": of_particles, "drumlin-flow-effect-prices-1": of_flow, "drumlin-effect-errors-1": errors}
 
 
-def main():
-    report, folder = script.content_of(sys.argv[1]), pathlib.Path(sys.argv[2])
+def draw_all(report, folder):
     style.use_style()
     drawings = {"prices": FIGURES[report["format"]]}
     if any("against" in row for row in report.get("effects", [])):
@@ -158,4 +157,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    draw_all(script.content_of(sys.argv[1]), pathlib.Path(sys.argv[2]))

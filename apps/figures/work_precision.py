@@ -147,11 +147,10 @@ def draw_statistics(cost):
     return figure
 
 
-def main():
-    cost = script.content_of(sys.argv[1])
+def draw_all(cost, folder):
     style.use_style()
-    script.save_each({"work_precision": lambda: draw(cost), "statistics": lambda: draw_statistics(cost)}, pathlib.Path(sys.argv[2]), cost["reduced"])
+    script.save_each({"work_precision": lambda: draw(cost), "statistics": lambda: draw_statistics(cost)}, folder, cost["reduced"])
 
 
 if __name__ == "__main__":
-    main()
+    draw_all(script.content_of(sys.argv[1]), pathlib.Path(sys.argv[2]))

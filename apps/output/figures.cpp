@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <csignal>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "apps/process/interruption.hpp"
 #include "apps/process/program_files.hpp"
+#include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/machine/child_process.hpp"
 
@@ -15,7 +16,6 @@ namespace drumlin::apps {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 ProcessRequest request_for(const std::string& script, const std::vector<std::string>& arguments) {
   ProcessRequest request;
@@ -31,20 +31,8 @@ ProcessRequest request_for(const std::string& script, const std::vector<std::str
   return request;
 }
 
-void require_success(const ProcessEnd& end, const std::string& script, const std::string& said) {
-  stop_if_interrupted();
-  if (end.shell_code() == static_cast<int>(ExitCode::wrong_input))
-    throw InputError(said.substr(0, said.find_last_not_of('\n') + 1));
-  if (!end.succeeded())
-    throw IoError(fmt::format("{} failed:\n{}", fs::path(script).filename().string(), said));
-}
-
-/// Runs a script and hands over what it printed.
-ProcessEnd end_of_script(const std::string& script, const std::vector<std::string>& arguments,
-                         std::string& said) {
-  ProcessRequest request = request_for(script, arguments);
-  // Standard output stays free for the command's own results (--json).
-  request.line = [&](const std::string& line) { said += line + "\n"; };
+/// Runs it to its end, which signals hasten.
+ProcessEnd end_of(ProcessRequest request) {
   request.caught = interruption;
   const CaughtInterruptions caught;  // the script ends by them, and we with it
   const ProcessEnd end = run_process(request);
@@ -54,33 +42,36 @@ ProcessEnd end_of_script(const std::string& script, const std::vector<std::strin
 
 }  // namespace
 
-void draw_figures(const std::string& script, const std::vector<std::string>& arguments) {
+std::string output_of_script(const std::string& script, const std::vector<std::string>& arguments,
+                             const std::function<bool(const std::string&)>& take) {
+  ProcessRequest request = request_for(script, arguments);
   std::string said;
-  const ProcessEnd end = end_of_script(script, arguments, said);
-  require_success(end, script, said);
-}
-
-std::string study_by_script(const std::string& script, const std::vector<std::string>& arguments) {
-  std::string said;
-  const ProcessEnd end = end_of_script("../study/" + script, arguments, said);
-  require_success(end, "study", said);
+  // Standard output stays free for the command's own results (--json).
+  request.line = [&](const std::string& line) {
+    if (!take || !take(line)) said += line + "\n";
+  };
+  const ProcessEnd end = end_of(request);
+  if (end.shell_code() == static_cast<int>(ExitCode::wrong_input))
+    throw InputError(said.substr(0, said.find_last_not_of('\n') + 1));
+  if (!end.succeeded())
+    throw IoError(fmt::format("{} failed:\n{}", fs::path(script).filename().string(), said));
   return said;
 }
 
-void work_for_script(const std::string& script, const std::function<Json(const Json&)>& answer) {
-  ProcessRequest request = request_for(script, {});
-  const Pipe answers = open_pipe();  // to its standard input
-  request.input = answers.out.number();
-  std::string said;
-  request.line = [&](const std::string& line) {
-    stop_if_interrupted();
-    if (!line.starts_with("{"))
-      said += line + "\n";
-    else if (!answers.in.write(answer(Json::parse(line)).dump() + "\n"))
-      throw_io_error("a pipe", "written");
+void draw_figures(const std::string& script, const std::vector<std::string>& arguments) {
+  (void)output_of_script(script, arguments);
+}
+
+int end_of_command(const std::string& script, const std::vector<std::string>& arguments) {
+  ProcessRequest request = request_for(script, arguments);
+  request.environment = {};  // what it measures runs as it would alone
+  request.output = ProcessOutput::standard;
+  request.line = [](const std::string& line) {
+    print_out(line + "\n");
+    flush_out();
   };
-  const CaughtInterruptions caught;  // what is at work takes notice, and the script ends with it
-  require_success(run_process(request), script, said);
+  request.end_signal = SIGTERM;  // it ends what it has started
+  return end_of(request).shell_code();
 }
 
 }  // namespace drumlin::apps

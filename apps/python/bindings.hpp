@@ -12,6 +12,7 @@ void add_simulation(pybind11::module_& module);
 void add_contacts(pybind11::module_& module);
 void add_laws(pybind11::module_& module);
 void add_bed(pybind11::module_& module);
+void add_costs(pybind11::module_& module);
 void add_files(pybind11::module_& module);
 
 /// Objects of this class come from functions of the module alone: `cls.__new__(cls)`, which copy and pickle

@@ -80,6 +80,7 @@ PYBIND11_MODULE(_drumlin, module) {
   drumlin::python::add_contacts(module);
   drumlin::python::add_laws(module);
   drumlin::python::add_bed(module);
+  drumlin::python::add_costs(module);
   drumlin::python::add_files(module);
   say_types_alone(module, false);
 }

@@ -14,6 +14,22 @@ namespace drumlin::particles {
 
 namespace fs = std::filesystem;
 
+std::vector<std::string> grain_list_names(const Scene& scene) {
+  std::vector<std::string> names;
+  if (std::holds_alternative<ListedGrains>(scene.grains.source)) names.push_back(grain_list);
+  for (std::size_t g = 0; g < scene.grains.groups.size(); ++g)
+    if (std::holds_alternative<ListedGrains>(scene.grains.groups[g].source))
+      names.push_back(fmt::format("grains-{}.csv", g + 1));
+  return names;
+}
+
+Scene as_recorded(Scene scene) {
+  const auto names = grain_list_names(scene);
+  const auto lists = lists_of(scene);
+  for (std::size_t k = 0; k < lists.size(); ++k) lists[k]->file = names[k];
+  return scene;
+}
+
 RunFolder read_run_folder(const fs::path& folder) {
   if (!fs::is_directory(input_status(folder))) throw InputError(folder.string() + ": no such folder");
   if (!fs::exists(folder / "run.json"))

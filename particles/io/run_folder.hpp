@@ -14,6 +14,14 @@
 
 namespace drumlin::particles {
 
+/// The file in a run folder that holds a copy of the grain list of its scene.
+inline constexpr const char* grain_list = "grains.csv";
+/// Names of the files in a run folder that hold copies of the scene's lists of grains, in the order of
+/// lists_of().
+std::vector<std::string> grain_list_names(const Scene& scene);
+/// The scene as it stands in the run folder.
+Scene as_recorded(Scene scene);
+
 struct RunFolder {
   std::filesystem::path folder;
   ResultFolder files;

@@ -29,7 +29,6 @@ TEST(ChildProcess, HandsOverItsLinesAndItsExitCode) {
   EXPECT_EQ(end.exit_code, 3);
   EXPECT_EQ(end.signal, 0);
   EXPECT_FALSE(end.succeeded());
-  EXPECT_GT(end.peak_memory_mb, 0);
 }
 
 TEST(ChildProcess, SaysWhichSignalEndedIt) {
@@ -54,18 +53,6 @@ TEST(ChildProcess, GetsVariablesInPlaceOfOurs) {
   EXPECT_TRUE(run_process(request).succeeded());
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_TRUE(lines[0].starts_with("given")) << lines[0];
-}
-
-TEST(ChildProcess, IsToldToEndAtItsTimeLimit) {
-  for (const ProcessOutput output : {ProcessOutput::inherited, ProcessOutput::standard}) {
-    std::vector<std::string> lines;
-    ProcessRequest request = shell("exec sleep 30", output, lines);
-    request.time_limit_s = 0.05;
-    const ProcessEnd end = run_process(request);
-    EXPECT_TRUE(end.timed_out);
-    EXPECT_EQ(end.signal, SIGTERM);
-    EXPECT_FALSE(end.succeeded());
-  }
 }
 
 volatile std::sig_atomic_t seen = 0;

@@ -1,6 +1,7 @@
-"""`drumlin cost`: which points a sweep has, what errors they are given, what it advises; a sweep and a price list of a drum of a dozen discs. Flows: chain."""
+"""`drumlin cost`: which points a sweep has, what errors they are given, what it advises; a sweep and a price list of a drum of a dozen discs; programs that it starts. Flows: chain."""
 
 import json
+import subprocess
 import sys
 
 import drumlin
@@ -97,6 +98,12 @@ def test_variants_are_each_effect_alone_or_those_named():
     for word in ("", "gravity", "inertia+inertia", "inertia+"):
         with pytest.raises(sweeping.InputError):
             flows.variants_of([word])
+
+
+def test_a_program_is_told_to_end_at_its_time_limit(monkeypatch):
+    monkeypatch.setattr(sweeping, "program", lambda name: name)
+    assert sweeping.ended(["sh", "-c", "exec sleep 30"], time_limit_s=0.05) == (None, "")
+    assert sweeping.ended(["sh", "-c", "echo one; echo two >&2; exit 3"], time_limit_s=30, output=subprocess.PIPE) == (3, "one\ntwo\n")
 
 
 @pytest.fixture(scope="module")

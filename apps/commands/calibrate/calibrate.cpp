@@ -103,7 +103,7 @@ Json laws_of_the_bed(const CalibrateOptions& options, const std::vector<Measured
   for (const MeasuredRun& run : runs)
     words.insert(words.end(), {run.name, (run.folder / "measured" / "maps.h5").string()});
   // Modules may warn before it.
-  const std::string said = study_by_script("../bed/command.py", words);
+  const std::string said = output_of_script("../bed/command.py", words);
   const std::size_t line = said.starts_with("{") ? 0 : said.rfind("\n{");
   if (line == std::string::npos) throw IoError("bed/command.py: " + said);
   return Json::parse(said.substr(line));

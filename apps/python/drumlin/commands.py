@@ -21,7 +21,7 @@ from .progress import Progress
 from .scenes import overrides_of, toml_of
 
 _SHARE = re.compile(r"^(?:reduced )?[a-z ]+? +([\d.]+) %.*\n", re.MULTILINE)  # a line of progress
-_KINDS = {2: InputError, 3: NotConvergedError, 74: IoError}
+_KINDS = {kind.exit_code: kind for kind in (InputError, NotConvergedError, IoError)}
 
 
 def program(name="drumlin"):

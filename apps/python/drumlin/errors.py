@@ -2,22 +2,25 @@
 
 
 class DrumlinError(Exception):
-    """What Drumlin refuses or fails at."""
+    """What Drumlin refuses or fails at. Each kind has the `exit_code` of the commands."""
 
 
 class InputError(DrumlinError, ValueError):
-    """Wrong input: `problems` lists its faults, each with file, line, key, what is wrong and what would be allowed. Exit code 2 of the commands."""
+    """Wrong input: `problems` lists its faults, each with file, line, key, what is wrong and what would be allowed."""
 
+    exit_code = 2
     problems = ()
 
 
 class NotConvergedError(DrumlinError, RuntimeError):
-    """A method did not converge, or no steady solution exists. Exit code 3 of the commands."""
+    """A method did not converge, or no steady solution exists."""
 
+    exit_code = 3
     problems = ()
 
 
 class IoError(DrumlinError, OSError):
-    """A file could not be read or written. Exit code 74 of the commands."""
+    """A file could not be read or written."""
 
+    exit_code = 74
     problems = ()

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,6 +17,7 @@
 #include <utility>
 
 #include "coupling/core/basics/errors.hpp"
+#include "coupling/core/files/descriptor.hpp"
 
 extern char** environ;
 
@@ -25,13 +25,20 @@ namespace drumlin {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-constexpr double grace_s = 10;  // between SIGTERM at the time limit and SIGKILL
 constexpr std::chrono::milliseconds between_looks{5};
 
 [[noreturn]] void fail(const fs::path& program, int error) {
   throw IoError(program.string() + ": " + std::strerror(error));
+}
+
+/// No started program inherits it.
+struct Pipe {
+  Descriptor out, in;
+};
+Pipe open_pipe() {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("a pipe", errno);
+  return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
 std::vector<char*> pointers(std::vector<std::string>& texts) {
@@ -56,7 +63,6 @@ std::vector<std::string> environment_with(const std::vector<std::string>& settin
 [[noreturn]] void become(const ProcessRequest& request, char* const* words, char* const* variables,
                          int captured, int failed) {
   ::prctl(PR_SET_PDEATHSIG, request.end_signal);
-  if (request.input >= 0) ::dup2(request.input, STDIN_FILENO);
   if (request.output != ProcessOutput::inherited) ::dup2(captured, STDOUT_FILENO);
   if (request.output == ProcessOutput::with_errors) ::dup2(captured, STDERR_FILENO);
   std::signal(SIGPIPE, SIG_DFL);
@@ -85,12 +91,10 @@ pid_t started(const ProcessRequest& request, int captured) {
   return process;
 }
 
-/// A started program: passes on what it is to know, and waits for its end.
+/// A started program: passes on the signals that this process catches, and waits for its end.
 class Child {
  public:
-  Child(pid_t process, const ProcessRequest& request) : process_(process), request_(request) {
-    if (request.time_limit_s) next_ = after(*request.time_limit_s);
-  }
+  Child(pid_t process, const ProcessRequest& request) : process_(process), request_(request) {}
   /// After an error of this process nobody wants its output any more.
   ~Child() {
     if (ended_) return;
@@ -101,44 +105,30 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Passes on the signal that this process has caught; tells the program to end when its time is over, and
-  /// ends it if it does not.
-  void look() {
+  void pass_on_signals() {
     const int signal = request_.caught ? request_.caught() : 0;
     if (signal != std::exchange(passed_on_, signal)) ::kill(process_, signal);
-    if (!next_ || Clock::now() < *next_) return;
-    ::kill(process_, told_ ? SIGKILL : SIGTERM);
-    next_ = told_ ? std::nullopt : std::optional(after(grace_s));
-    told_ = true;
   }
 
   ProcessEnd end() {
     int status = 0;
-    rusage usage{};
     for (;;) {
-      const pid_t found = ::wait4(process_, &status, WNOHANG, &usage);
+      const pid_t found = ::waitpid(process_, &status, WNOHANG);
       if (found == process_) break;
       if (found < 0 && errno != EINTR) fail(request_.program, errno);
-      look();
+      pass_on_signals();
       std::this_thread::sleep_for(between_looks);
     }
     ended_ = true;
-    return {.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 0,
-            .signal = WIFEXITED(status) ? 0 : WTERMSIG(status),
-            .timed_out = told_,
-            .peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024};
+    return WIFEXITED(status) ? ProcessEnd{.exit_code = WEXITSTATUS(status)}
+                             : ProcessEnd{.signal = WTERMSIG(status)};
   }
 
  private:
-  static Clock::time_point after(double seconds) {
-    return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-  }
-
   pid_t process_;
   const ProcessRequest& request_;
-  std::optional<Clock::time_point> next_;  // signal at the time limit
   int passed_on_ = 0;
-  bool told_ = false, ended_ = false;
+  bool ended_ = false;
 };
 
 void hand_over_lines(int file, Child& child, const std::function<void(const std::string&)>& line) {
@@ -147,8 +137,8 @@ void hand_over_lines(int file, Child& child, const std::function<void(const std:
   for (;;) {
     pollfd ready{file, POLLIN, 0};
     const int count_ready = ::poll(&ready, 1, static_cast<int>(between_looks.count()));
-    child.look();
-    if (count_ready <= 0) continue;  // a signal, or the time
+    child.pass_on_signals();
+    if (count_ready <= 0) continue;  // a signal, or nothing yet
     const ssize_t count = ::read(file, buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) break;
@@ -160,12 +150,6 @@ void hand_over_lines(int file, Child& child, const std::function<void(const std:
 }
 
 }  // namespace
-
-Pipe open_pipe() {
-  std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("a pipe", errno);
-  return {Descriptor(ends[0]), Descriptor(ends[1])};
-}
 
 ProcessEnd run_process(const ProcessRequest& request) {
   Pipe output = open_pipe();

@@ -3,11 +3,8 @@
 #include <csignal>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
-
-#include "coupling/core/files/descriptor.hpp"
 
 namespace drumlin {
 
@@ -23,10 +20,8 @@ struct ProcessRequest {
   std::filesystem::path program;  ///< a path, or a name to be found along PATH
   std::vector<std::string> words = {};
   std::vector<std::string> environment = {};  ///< "NAME=value", in place of this process's own value of NAME
-  int input = -1;                             ///< what it reads as standard input; -1: that of this process
   ProcessOutput output = ProcessOutput::inherited;
   std::function<void(const std::string&)> line = [](const std::string&) {};  ///< takes captured output
-  std::optional<double> time_limit_s = {};  ///< wall time after which the program is told to end
   /// Tells the signal that this process has caught, 0: none. The program gets it too, and this process waits
   /// for its end.
   int (*caught)() = nullptr;
@@ -37,11 +32,9 @@ struct ProcessRequest {
 
 /// How a program ended.
 struct ProcessEnd {
-  int exit_code = 0;          ///< its own, where no signal ended it
-  int signal = 0;             ///< the one that ended it; 0: none
-  bool timed_out = false;     ///< it was told to end at its time limit
-  double peak_memory_mb = 0;  ///< largest resident set, MiB; of mpirun the largest of its ranks
-  bool succeeded() const { return exit_code == 0 && signal == 0 && !timed_out; }
+  int exit_code = 0;  ///< its own, where no signal ended it
+  int signal = 0;     ///< the one that ended it; 0: none
+  bool succeeded() const { return exit_code == 0 && signal == 0; }
   /// The exit code, or 128 + signal as a shell reports it.
   int shell_code() const { return signal == 0 ? exit_code : 128 + signal; }
 };
@@ -49,13 +42,6 @@ struct ProcessEnd {
 /// Starts the program and waits until it ends. Throws IoError if it cannot be started. To be called from a
 /// thread that lives on: the program ends with it.
 ProcessEnd run_process(const ProcessRequest& request);
-
-/// A pipe, which no started program inherits.
-struct Pipe {
-  Descriptor out, in;
-};
-/// Throws IoError.
-Pipe open_pipe();
 
 /// Throws IoError where the system could not load a program of ours (exit code 127, after words of the
 /// loader).

@@ -165,21 +165,17 @@ def spreading_of(grids, table):
 def main(options, *words):
     options = json.loads(options)
     names = [name.encode("utf-8", "surrogateescape").decode("utf-8", "replace") for name in words[::2]]
-    try:
-        grids = [bed_of(file, options, options["own_weight"] or 0.0) for file in words[1::2]]
-        every = [(name, bed) for name, (bed, _, _) in zip(names, grids)]
-        runs, held_out = every[:options["fitted"]], every[options["fitted"]:]
-        table = table_of([bed for _, bed in runs], options["draws"])
-        tables, record, said = {}, {}, ""
-        parts = {"memory": lambda: memory_of(runs, held_out, options, table), "nonlocal": lambda: spreading_of(grids[:options["fitted"]], table)}
-        for key, part in parts.items():
-            if options[key]:
-                gained, record[key], text = part()
-                tables |= gained
-                said += text
-    except InputError as error:
-        print(error)
-        sys.exit(2)
+    grids = [bed_of(file, options, options["own_weight"] or 0.0) for file in words[1::2]]
+    every = [(name, bed) for name, (bed, _, _) in zip(names, grids)]
+    runs, held_out = every[:options["fitted"]], every[options["fitted"]:]
+    table = table_of([bed for _, bed in runs], options["draws"])
+    tables, record, said = {}, {}, ""
+    parts = {"memory": lambda: memory_of(runs, held_out, options, table), "nonlocal": lambda: spreading_of(grids[:options["fitted"]], table)}
+    for key, part in parts.items():
+        if options[key]:
+            gained, record[key], text = part()
+            tables |= gained
+            said += text
     print(json.dumps({"tables": toml_of(tables), "record": plain(record), "said": said}))
 
 

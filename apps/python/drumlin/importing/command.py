@@ -1,7 +1,9 @@
-"""What `drumlin import` starts once it has read the description and claimed its output: writes the snapshots. A refusal is printed and ends with exit
-code 2. Each line of JSON that it prints, the report so far, is answered by a line (apps/commands/import.cpp):
-  output  folder that holds import.toml, the description with all defaults, and the folder snapshots
-  files   lists of files by what they hold, grains and contacts
+"""What `drumlin import` starts once it has read the description and claimed its output: writes the snapshots. The report so far is printed after
+each, a line of JSON.
+
+usage: command.py OUTPUT
+  OUTPUT  folder that holds import.toml, the description with all defaults, files.json, lists of files by what they hold (grains, contacts), and the
+          folder snapshots
 """
 
 import dataclasses
@@ -12,7 +14,6 @@ import tomllib
 
 import numpy as np
 
-from drumlin.errors import InputError
 from drumlin.hdf5 import write_hdf5
 from drumlin.importing.run import Import
 
@@ -32,29 +33,19 @@ WORDS = {
     "contacts/impulse_t": ("rho0 d^2 sqrt(g d)", "on i along (n_z, -n_x)")}
 
 
-def tell(**words):
-    print(json.dumps(words), flush=True)
-    return json.loads(sys.stdin.readline())
-
-
-def main():
-    for stream in (sys.stdin, sys.stdout):
-        stream.reconfigure(encoding="utf-8", errors="surrogateescape")
+def main(output):
+    sys.stdout.reconfigure(encoding="utf-8", errors="surrogateescape")
     np.seterr(all="ignore")  # what is too large is refused
-    given = tell()
-    output = pathlib.Path(given["output"])
-    try:
-        snapshots = Import(tomllib.loads((output / "import.toml").read_text(encoding="utf-8")), given["files"])
-        for s in snapshots:
-            scales = dataclasses.asdict(snapshots.report.scales)
-            write_hdf5(output / "snapshots" / f"{s['step']:06}.h5",
-                       {"format": "drumlin-snapshot-1"} | s | {f"scales/{name}": value for name, value in scales.items()}, WORDS)
-            tell(**dataclasses.asdict(snapshots.report))
-    except InputError as error:
-        print(error)
-        sys.exit(2)
-    tell(**dataclasses.asdict(snapshots.report))
+    output = pathlib.Path(output)
+    snapshots = Import(tomllib.loads((output / "import.toml").read_text(encoding="utf-8")),
+                       json.loads((output / "files.json").read_text(encoding="utf-8")))
+    for s in snapshots:
+        scales = dataclasses.asdict(snapshots.report.scales)
+        write_hdf5(output / "snapshots" / f"{s['step']:06}.h5",
+                   {"format": "drumlin-snapshot-1"} | s | {f"scales/{name}": value for name, value in scales.items()}, WORDS)
+        print(json.dumps(dataclasses.asdict(snapshots.report)), flush=True)
+    print(json.dumps(dataclasses.asdict(snapshots.report)))
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:])

@@ -1,5 +1,5 @@
 """What `drumlin measure --study`, `drumlin compare --study` and `drumlin score` start once they have checked all folders: writes study.json (score.json)
-and its tables and prints what the command says. A refusal is printed and ends with exit code 2.
+and its tables and prints what the command says.
 
 usage: command.py STUDY PAPER GIVEN
   STUDY  folder of the results
@@ -12,7 +12,6 @@ import pathlib
 import sys
 
 from drumlin import study
-from drumlin.errors import InputError
 from drumlin.figures import whole_file
 
 
@@ -46,15 +45,11 @@ def of_score(runs, flows, given):
 def main(output, paper, file):
     sys.stdout.reconfigure(encoding="utf-8", errors="surrogateescape")
     given = json.loads(pathlib.Path(file).read_text(encoding="utf-8"))
-    try:
-        runs, flows = [study.read_run(folder) for folder in given["runs"]], [study.read_flow(folder) for folder in given["flows"]]
-        if "scored" in given:
-            head, content, tables, said = of_score(runs, flows, given)
-        else:
-            head, content, tables, said = of_both_sides(runs, flows, given, paper) if given["both_sides"] else of_particles(runs, paper)
-    except InputError as error:
-        print(error)
-        sys.exit(2)
+    runs, flows = [study.read_run(folder) for folder in given["runs"]], [study.read_flow(folder) for folder in given["flows"]]
+    if "scored" in given:
+        head, content, tables, said = of_score(runs, flows, given)
+    else:
+        head, content, tables, said = of_both_sides(runs, flows, given, paper) if given["both_sides"] else of_particles(runs, paper)
     content = head | {"reduced": (flows or runs)[0].reduced} | content | {"provenance": given["provenance"]}
     record = "score.json" if "scored" in given else "study.json"
     for name, text in (tables | {record: json.dumps(content, indent=2, ensure_ascii=False) + "\n"}).items():

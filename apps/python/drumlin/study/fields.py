@@ -197,12 +197,7 @@ def write_maps(path, header, x, z, fields, scales):
 
 
 def main(csv_file, maps_file):
-    sys.stdout.reconfigure(encoding="utf-8", errors="surrogateescape")
-    try:
-        write_maps(maps_file, *map_of_fields(*read_fields(csv_file)))
-    except InputError as error:
-        print(error)
-        sys.exit(2)
+    write_maps(maps_file, *map_of_fields(*read_fields(csv_file)))
 
 
 if __name__ == "__main__":
