@@ -10,9 +10,7 @@ int flow(const FlowOptions& options) {
   ProcessRequest request{.program = program_beside("drumlin-flow"), .words = words_of(described(options))};
   request.caught = interruption;
   const CaughtInterruptions caught;  // the child ends by them, and we with it
-  const ProcessEnd end = run_process(request);
-  require_loaded(end, "drumlin-flow");
-  return end.shell_code();
+  return run_process(request).shell_code();
 }
 
 }  // namespace

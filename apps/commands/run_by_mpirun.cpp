@@ -9,7 +9,6 @@
 #include "apps/process/interruption.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/machine/child_process.hpp"
-#include "coupling/core/machine/system_limits.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -23,13 +22,10 @@ std::vector<std::string> words_for(RunOptions options) {
   return words;
 }
 
-constexpr int files_of_mpirun = 32, files_of_rank = 16;
-
 }  // namespace
 
 int run_by_mpirun(const RunOptions& options) {
   ProcessRequest request{.program = "mpirun", .words = words_for(options)};
-  require_open_files(files_of_mpirun + files_of_rank * *options.ranks);
   request.environment = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
   if (*options.ranks > processors_at_hand()) {  // who waits leaves its processor to others
     request.environment.push_back("OMPI_MCA_rmaps_base_oversubscribe=1");
@@ -41,7 +37,6 @@ int run_by_mpirun(const RunOptions& options) {
   request.end_signal = SIGTERM;      // it ends its ranks
   const CaughtInterruptions caught;  // the job ends by them, and we with it
   const ProcessEnd end = run_process(request);
-  require_loaded(end, "drumlin-run");
   // mpirun ends with 1 when it is told to end.
   return interruption() != 0 && !end.succeeded() ? exit_code_of(interruption()) : end.shell_code();
 }

@@ -20,7 +20,6 @@
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/files/unfinished_file.hpp"
-#include "coupling/core/machine/system_limits.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -106,7 +105,6 @@ int run_program(const std::function<int()>& work, const std::function<bool()>& s
   std::set_terminate(end_with_message);
   int code = 0;
   try {
-    require_stack();
     code = work();
   } catch (...) {
     flush_out();

@@ -29,8 +29,11 @@ std::vector<double> FemRuntime::of_ranks(double value) {
 }
 
 void FemRuntime::on_first_rank(const std::function<void()>& action) const {
-  do_on_first_rank(rank() == 0, action,
-                   [](int code) { return dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, code, 0); });
+  on_all_ranks(
+      [&] {
+        if (rank() == 0) action();
+      },
+      [](const std::string&) {});
 }
 
 void FemRuntime::on_all_ranks(const std::function<void()>& action,

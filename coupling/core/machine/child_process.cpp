@@ -159,10 +159,6 @@ ProcessEnd run_process(const ProcessRequest& request) {
   return child.end();
 }
 
-void require_loaded(const ProcessEnd& end, const std::string& name) {
-  if (end.exit_code == 127) throw IoError(name + ": could not be loaded, for lack of memory or of a library");
-}
-
 fs::path program_beside(const std::string& name) {
   const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / name;
   if (!fs::exists(program))

@@ -43,10 +43,6 @@ struct ProcessEnd {
 /// thread that lives on: the program ends with it.
 ProcessEnd run_process(const ProcessRequest& request);
 
-/// Throws IoError where the system could not load a program of ours (exit code 127, after words of the
-/// loader).
-void require_loaded(const ProcessEnd& end, const std::string& name);
-
 /// The program of this name in the folder of the running executable. Throws IoError if it is missing.
 std::filesystem::path program_beside(const std::string& name);
 

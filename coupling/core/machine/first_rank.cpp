@@ -35,23 +35,6 @@ ExitCode code_of_error() {
 
 }  // namespace
 
-void do_on_first_rank(bool is_first, const std::function<void()>& action,
-                      const std::function<int(int)>& from_first) {
-  std::exception_ptr thrown;
-  ExitCode code = ExitCode::done;
-  if (is_first) {
-    try {
-      action();
-    } catch (...) {
-      thrown = std::current_exception();
-      code = code_of_error();
-    }
-  }
-  code = static_cast<ExitCode>(from_first(static_cast<int>(code)));
-  if (thrown) std::rethrow_exception(thrown);
-  if (code != ExitCode::done) throw FailedOnFirstRank{code};
-}
-
 void do_on_all_ranks(int rank, const std::function<void()>& action,
                      const std::function<std::int64_t(std::int64_t)>& least,
                      const std::function<void(const std::string&)>& say) {

@@ -14,11 +14,6 @@ struct FailedOnFirstRank {
   ExitCode code = ExitCode::done;
 };
 
-/// Does `action` on the first rank, while the others wait for it. What it throws there is thrown there, and
-/// FailedOnFirstRank on the others. `from_first` gives all ranks the number that the first one hands to it.
-void do_on_first_rank(bool is_first, const std::function<void()>& action,
-                      const std::function<int(int)>& from_first);
-
 /// Does `action` on all ranks, which may not all see the same files. Where it throws on some, that is thrown
 /// on the first of them if it is rank 0; another one hands "rank 1: what happened" to `say`, since only rank
 /// 0 speaks otherwise. All other ranks throw FailedOnFirstRank with its code. `least` gives all ranks the

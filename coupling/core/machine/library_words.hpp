@@ -4,8 +4,7 @@
 
 namespace drumlin {
 
-/// What MPI and BLAS are to find in the environment, and the open files that MPI needs: first of all. Throws
-/// IoError.
+/// What MPI and BLAS are to find in the environment: first of all.
 void prepare_libraries();
 
 /// The words that they get: the program's name, and that PETSc reads no file of options, in the current
