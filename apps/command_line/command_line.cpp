@@ -80,7 +80,7 @@ struct Adding {
   }
   CLI::Option* operator()(const ExistingWord& flag) const {
     return command.add_flag_callback(
-        option.names, [flag] { *flag.place = flag.word; }, option.help_text());
+        option.names, [flag] { *flag.existing = flag.word; }, option.help_text());
   }
   template <class T>
   CLI::Option* operator()(T* value) const {
@@ -117,7 +117,7 @@ struct Adding {
 
 void add_options(CLI::App& app, const Description& description) {
   for (const Option& option : description.options()) {
-    CLI::Option* added = std::visit(Adding{app, option}, option.place);
+    CLI::Option* added = std::visit(Adding{app, option}, option.member);
     if (option.is_required) added->required();
     if (option.read != nullptr) added->transform(option.read);
   }

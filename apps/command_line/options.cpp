@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/process/asked.hpp"
 #include "apps/process/program_files.hpp"
+#include "apps/process/request_sum.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -16,15 +16,15 @@ using Json = nlohmann::ordered_json;
 
 Json json_of(const Option& option) {
   return std::visit(
-      [](const auto& place) -> Json {
-        if constexpr (requires { place.word; })
-          return *place.place == place.word;
-        else if constexpr (requires { place->has_value(); })
-          return *place ? Json(**place) : Json();
+      [](const auto& member) -> Json {
+        if constexpr (requires { member.word; })
+          return *member.existing == member.word;
+        else if constexpr (requires { member->has_value(); })
+          return *member ? Json(**member) : Json();
         else
-          return Json(*place);
+          return Json(*member);
       },
-      option.place);
+      option.member);
 }
 
 /// What an option adds to the sum: an absent number counts as 0, an absent path has an empty sum.
@@ -50,9 +50,9 @@ std::string word_of(const Json& value) {
 }  // namespace
 
 bool Option::is_of_paths() const {
-  return std::holds_alternative<fs::path*>(place) ||
-         std::holds_alternative<std::optional<fs::path>*>(place) ||
-         std::holds_alternative<std::vector<fs::path>*>(place);
+  return std::holds_alternative<fs::path*>(member) ||
+         std::holds_alternative<std::optional<fs::path>*>(member) ||
+         std::holds_alternative<std::vector<fs::path>*>(member);
 }
 
 std::vector<std::string> Option::choices() const {
@@ -171,7 +171,7 @@ std::vector<std::string> words_of(const Description& description) {
 std::string requested_sum(const Description& description, Json first) {
   for (const Option& option : description.options())
     if (option.by != Decides::nothing) first.push_back(summed(option));
-  return asked_sum(first);
+  return request_sum(first);
 }
 
 std::vector<fs::path> inputs_of(const Description& description) {

@@ -25,14 +25,14 @@ inline constexpr int most_threads = 256;
 
 /// A flag that says one thing of an existing output.
 struct ExistingWord {
-  ExistingOutput* place;
+  ExistingOutput* existing;
   ExistingOutput word;
 };
-/// The member that an option fills in.
-using Place = std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, std::optional<int>*,
-                           std::optional<double>*, std::optional<std::filesystem::path>*, std::vector<int>*,
-                           std::vector<double>*, std::vector<std::string>*,
-                           std::vector<std::filesystem::path>*, ExistingWord>;
+/// What an option fills in.
+using Member = std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, std::optional<int>*,
+                            std::optional<double>*, std::optional<std::filesystem::path>*, std::vector<int>*,
+                            std::vector<double>*, std::vector<std::string>*,
+                            std::vector<std::filesystem::path>*, ExistingWord>;
 
 /// By what an option decides the results.
 enum class Decides {
@@ -45,7 +45,7 @@ enum class Decides {
 /// One option with the member that it fills in; `describe` changes what is not usual of it.
 struct Option {
   std::string names;  ///< "-o,--output"; without a dash: by its position
-  Place place;
+  Member member;
   std::string kind;  ///< stands for the value in the help; empty for a flag
   std::string unit;
   std::optional<Allowed> allowed;

@@ -100,7 +100,7 @@ std::string source_now(const fs::path& folder, const Manifest& manifest) {
 }
 
 /// Whether a folder that was computed from another one is taken for computed from that as it is now.
-enum class Source { kept, accepted };
+enum class Source { as_before, accepted };
 
 /// Says what was accepted; nothing if all is as it should be.
 std::string accept_one(const fs::path& folder, const std::string& reason, Source source) {
@@ -144,7 +144,7 @@ int accept(const AcceptOptions& options) {
   std::vector<fs::path> signed_first;
   for (const fs::path& folder : result_folders(options.folder)) {
     if (!readable_manifest(folder)) signed_first.push_back(folder);
-    said += accept_one(folder, reason, folder == options.folder ? Source::accepted : Source::kept);
+    said += accept_one(folder, reason, folder == options.folder ? Source::accepted : Source::as_before);
   }
   // Only now is known what the folder around them was signed as.
   for (const fs::path& folder : signed_first) {

@@ -206,16 +206,16 @@ Json accuracy_statement(const particles::Scene& scene, const std::optional<Accur
   for (const Scalar& scalar : all.scalars) {
     const auto ci99 = measured.scalars.empty() ? std::nullopt : scalar.ci99;
     Json one{{"averaging", number_or_null(ci99)}};
-    bool is_told = !record;
+    bool is_identified = !record;
     for (const Setting s : {tolerance, step}) {
       const auto error = error_of(series[s], s, scalar.name, settings[s]);
       one[sources[s]] = error_json(error);
       if (!error) continue;
-      is_told = true;
+      is_identified = true;
       power[s] = std::min(power[s].value_or(1), error->significant() ? error->power : 1);
     }
     one["dominant"] = dominant(one);
-    if (is_told) scalars[scalar.name] = one;
+    if (is_identified) scalars[scalar.name] = one;
   }
   for (const Setting s : {tolerance, step}) {
     if (!power[s] || !(cost.cpu_seconds > 0)) continue;

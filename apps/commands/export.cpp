@@ -50,7 +50,7 @@ struct ExportOptions {
 };
 
 /// Fields of the balance of momentum: what checks a measurement, and no law or comparison reads.
-bool is_kept(const MapField& field) {
+bool is_exported(const MapField& field) {
   constexpr std::array left_out{"residual", "inertia", "wall_"};
   return std::none_of(left_out.begin(), left_out.end(),
                       [&](const char* part) { return field.name.find(part) != std::string::npos; });
@@ -89,7 +89,7 @@ int export_measurements(const ExportOptions& options) {
           }
         if (fs::exists(run.measured_files.path / "maps.h5")) {
           FieldMap map = read_field_map(checked_file(run.measured_files, "maps.h5"));
-          std::erase_if(map.fields, [](const MapField& field) { return !is_kept(field); });
+          std::erase_if(map.fields, [](const MapField& field) { return !is_exported(field); });
           write_field_map(staged / "measured" / "maps.h5", map, MapStorage::packed);
         }
         const double megabytes = static_cast<double>(bytes_below(staged)) * 1e-6;

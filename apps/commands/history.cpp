@@ -160,9 +160,9 @@ void check_box(const std::vector<double>& box) {
 int history(const HistoryOptions& options) {
   check_box(options.box);
   const fs::path folder = options.output.value_or(options.run / "history");
-  ResultsRequest asked = results_of(options, "history", folder, "walls.csv");
-  asked.computed_from = options.run;
-  return make_results(asked, [&](Results& results) -> Made {
+  ResultsRequest requested = results_of(options, "history", folder, "walls.csv");
+  requested.computed_from = options.run;
+  return make_results(requested, [&](Results& results) -> Made {
     const particles::RunFolder run = particles::read_run_folder(options.run);
     if (run.snapshots.empty()) throw InputError(run.folder.string() + ": holds no snapshots");
     const fs::path& made = results.begin();

@@ -187,12 +187,12 @@ double bytes_of_player(const Json& player) {
 
 Json drawn_run(const Json& drawing, const fs::path& folder) {
   // The script reads what to draw and writes what it drew.
-  const fs::path asked = folder / "asked.json", found = folder / "drawn.json";
-  write_json(asked, drawing);
-  draw_figures("plot_figures.py", {asked.string()});
+  const fs::path request = folder / "asked.json", found = folder / "drawn.json";
+  write_json(request, drawing);
+  draw_figures("plot_figures.py", {request.string()});
   Json drawn = read_json<PlotsRecord>(found);
   fs::remove(found);
-  fs::remove(asked);
+  fs::remove(request);
   return drawn;
 }
 

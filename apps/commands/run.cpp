@@ -325,10 +325,10 @@ void read_lists_from(const fs::path& folder, particles::Scene& scene) {
 }
 
 /// Stretches are cut into blocks of whole steps, and must come to an end.
-void check_stretches(std::optional<double> asked, const particles::Scene& scene) {
-  if (!asked) return;
+void check_stretches(std::optional<double> requested, const particles::Scene& scene) {
+  if (!requested) return;
   constexpr double most_steps = 1e9;
-  const double seconds = *asked, h = scene.stages.back().time_step_s, steps = seconds / h;
+  const double seconds = *requested, h = scene.stages.back().time_step_s, steps = seconds / h;
   if (steps >= particles::stretch_blocks && steps <= most_steps) return;
   throw InputError(
       {InputProblem{"", 0, 0, "--accuracy-seconds", fmt::format("is {:g} s, {:.3g} steps", seconds, steps),

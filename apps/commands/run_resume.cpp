@@ -58,25 +58,26 @@ bool is_finished(const fs::path& output, const particles::Scene& scene, const st
 
 void cut_back(GrowingOutput& output, const std::optional<particles::Checkpoint>& from) {
   auto& files = output.manifest().files;
-  std::map<std::string, ManifestEntry> kept;
+  std::map<std::string, ManifestEntry> entries;
   if (from) {
     for (std::int64_t number = 1; number <= from->state.snapshots; ++number) {
       const std::string name = snapshot_name(number);
       if (!files.contains(name))
         throw InputError(fmt::format("{}: is not listed in {}, and the checkpoint builds on it",
                                      (output.folder() / name).string(), manifest_name));
-      kept[name] = files.at(name);
+      entries[name] = files.at(name);
     }
     for (const auto& [name, entry] : files)
-      if (!name.starts_with("snapshots/")) kept[name] = entry;
+      if (!name.starts_with("snapshots/")) entries[name] = entry;
     for (const auto& [name, bytes] :
          {std::pair(log_name, from->log_bytes), std::pair(energy_name, from->energy_bytes),
           std::pair(wall_table_name, from->walls_bytes), std::pair(region_table_name, from->regions_bytes)}) {
-      kept.erase(name);
-      if (bytes > 0) kept[name] = {file_sum(output.folder() / name, static_cast<std::uint64_t>(bytes)), true};
+      entries.erase(name);
+      if (bytes > 0)
+        entries[name] = {file_sum(output.folder() / name, static_cast<std::uint64_t>(bytes)), true};
     }
   }
-  files = std::move(kept);
+  files = std::move(entries);
 }
 
 std::optional<particles::Checkpoint> checkpoint_in(const fs::path& output, const std::string& resolved) {

@@ -9,9 +9,9 @@
 namespace drumlin::apps {
 
 nlohmann::ordered_json take_over_grains(particles::Scene& scene) {
-  const auto* asked = std::get_if<particles::GrainsOfRun>(&scene.grains.source);
-  if (!asked) return nullptr;
-  particles::GrainsTakenOver taken = particles::grains_of_run(*asked);
+  const auto* requested = std::get_if<particles::GrainsOfRun>(&scene.grains.source);
+  if (!requested) return nullptr;
+  particles::GrainsTakenOver taken = particles::grains_of_run(*requested);
   const auto theirs = read_record<RunRecord>(taken.run.folder / "run.json");
   nlohmann::ordered_json chain = {
       {"run", taken.run.folder.string()},         {"title", taken.run.scene.title},

@@ -108,8 +108,8 @@ std::string studied(const Json& given, const fs::path& folder) {
 }
 
 /// Results, figures and page; what the module says comes out when all of it is there.
-int carried_out(const ResultsRequest& asked, StudyRequest request) {
-  return make_results(asked, [&](Results& results) -> Made {
+int carried_out(const ResultsRequest& requested, StudyRequest request) {
+  return make_results(requested, [&](Results& results) -> Made {
     const Json given = given_of(request);
     const fs::path& folder = results.begin();
     note_pending_figures(folder);
@@ -117,7 +117,7 @@ int carried_out(const ResultsRequest& asked, StudyRequest request) {
     auto& words = request.figures.arguments;
     words.insert(words.begin(), folder.string());
     if (request.both_sides)
-      said += fmt::format("report: {}\n", fs::absolute(asked.folder / "index.html").string());
+      said += fmt::format("report: {}\n", fs::absolute(requested.folder / "index.html").string());
     return {said,
             draw_pending_figures(folder, {request.figures}, ResultPage{request.page, folder / "study.json"})};
   });
@@ -180,15 +180,16 @@ int score(const ScoreOptions& options) {
 
 }  // namespace
 
-int study(const ResultsRequest& asked, const std::vector<fs::path>& runs) {
+int study(const ResultsRequest& requested, const std::vector<fs::path>& runs) {
   FigureScript figures{"study_figures.py", {paper_data_folder().string()}};
   for (const fs::path& run : runs) figures.arguments.push_back(run.string());
-  return carried_out(asked, {runs, false, {}, figures, "study"});
+  return carried_out(requested, {runs, false, {}, figures, "study"});
 }
 
-int compare_study(const ResultsRequest& asked, const std::vector<fs::path>& folders,
+int compare_study(const ResultsRequest& requested, const std::vector<fs::path>& folders,
                   const std::optional<fs::path>& limits) {
-  return carried_out(asked, {folders, true, limits, {"speed_comparison_figures.py", {}}, "speed_comparison"});
+  return carried_out(requested,
+                     {folders, true, limits, {"speed_comparison_figures.py", {}}, "speed_comparison"});
 }
 
 Command score_command() {

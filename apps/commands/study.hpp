@@ -9,9 +9,9 @@
 namespace drumlin::apps {
 
 /// `drumlin measure --study`: measured runs over the speed of rotation.
-int study(const ResultsRequest& asked, const std::vector<std::filesystem::path>& runs);
+int study(const ResultsRequest& requested, const std::vector<std::filesystem::path>& runs);
 /// `drumlin compare --study`: measured runs and flows; each flow judged by `limits` as well.
-int compare_study(const ResultsRequest& asked, const std::vector<std::filesystem::path>& folders,
+int compare_study(const ResultsRequest& requested, const std::vector<std::filesystem::path>& folders,
                   const std::optional<std::filesystem::path>& limits);
 
 }  // namespace drumlin::apps

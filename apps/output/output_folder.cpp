@@ -238,7 +238,7 @@ void StagedOutput::publish() {
                           .accepted = {},
                           .files = entries_of(staging_, files_below(staging_)),
                           .source = request_.source,
-                          .asked = request_.asked};
+                          .requested = request_.requested};
   const Manifest old = has_manifest(request_.folder) ? read_manifest(request_.folder) : Manifest{};
   refuse_links(request_.folder, names_in(manifest));
   for (const auto& [name, entry] : manifest.files) {
@@ -260,12 +260,12 @@ GrowingOutput::GrowingOutput(OutputRequest request, std::vector<std::string> kno
     const ResultFolder there = open_result_folder(request_.folder);
     check_all_files(there);
     manifest_ = *there.manifest;
-    manifest_.asked = request_.asked;
+    manifest_.requested = request_.requested;
     return;
   }
   if (is_there) set_aside(request_.folder, known_);
   manifest_.command = request_.command;
-  manifest_.asked = request_.asked;
+  manifest_.requested = request_.requested;
   save();
 }
 

@@ -17,7 +17,7 @@ struct OutputRequest {
   std::string command;                        ///< "run", "measure", ...
   std::vector<std::filesystem::path> inputs;  ///< what the command reads: never in a folder to be overwritten
   std::string source = {};                    ///< manifest_sum() of the folder that all is computed from
-  std::string asked = {};                     ///< requested_sum() of the command's options
+  std::string requested = {};                 ///< requested_sum() of the command's options
   bool goes_on = true;                        ///< the command knows --resume
 };
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/output/pending_figures.hpp"
-#include "apps/process/asked.hpp"
+#include "apps/process/request_sum.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/files/result_folder.hpp"
@@ -16,7 +16,7 @@ bool is_done_already(const ResultsRequest& request) {
   if (!request.computed_from.empty())
     check_source(open_result_folder(request.folder), open_result_folder(request.computed_from),
                  fmt::format("drumlin {} {} --overwrite", request.command, request.computed_from.string()));
-  refuse_other(request.folder, request.asked);
+  refuse_other(request.folder, request.requested);
   print_out(request.folder.string() + ": done already\n");
   return true;
 }

@@ -99,8 +99,8 @@ void add_bed(py::module_& module) {
     return py::dict("x"_a = over(of.blocks, &LawBlock::x), "I"_a = over(of.blocks, point(&FrictionPoint::I)),
                     "I_error"_a = over(of.blocks, point(&FrictionPoint::I_error)),
                     "mu"_a = over(of.blocks, point(&FrictionPoint::mu)),
-                    "amount"_a = over(of.blocks, &LawBlock::amount),
-                    "amount_error"_a = over(of.blocks, &LawBlock::amount_error),
+                    "amount"_a = over(of.blocks, &LawBlock::stress_ratio),
+                    "amount_error"_a = over(of.blocks, &LawBlock::stress_ratio_error),
                     "dilatancy"_a = over(of.blocks, &LawBlock::dilatancy));
   });
   bed.def_property_readonly("paths", [](const Bed& of) {
@@ -158,10 +158,10 @@ void add_bed(py::module_& module) {
          int draws, double slope_besides) {
         std::vector<std::vector<FrictionPoint>> points;
         for (const FrictionArrays& run : runs) points.push_back(points_of("fitted", run));
-        FrictionForm asked = form_named(form);
-        asked.knots = knots;
-        asked.slope_besides = slope_besides;
-        return calibrated(points, asked, draws);
+        FrictionForm requested = form_named(form);
+        requested.knots = knots;
+        requested.slope_besides = slope_besides;
+        return calibrated(points, requested, draws);
       },
       "runs"_a, "form"_a, "knots"_a = std::vector<double>(), "draws"_a = 0, "slope_besides"_a = 0.0);
   law.def_property_readonly("coefficients", [](const CalibratedLaw& of) { return of.fit.law; });

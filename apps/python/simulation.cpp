@@ -41,9 +41,9 @@ py::array read_only(py::array_t<T> numbers) {
 }
 template <class T>
 py::array owned(std::vector<T>&& values) {
-  auto kept = std::make_unique<std::vector<T>>(std::move(values));
-  const auto* numbers = kept.get();
-  const py::capsule owner(kept.release(), [](void* data) { delete static_cast<std::vector<T>*>(data); });
+  auto storage = std::make_unique<std::vector<T>>(std::move(values));
+  const auto* numbers = storage.get();
+  const py::capsule owner(storage.release(), [](void* data) { delete static_cast<std::vector<T>*>(data); });
   return read_only(py::array_t<T>(static_cast<py::ssize_t>(numbers->size()), numbers->data(), owner));
 }
 
@@ -56,13 +56,13 @@ class SteppedScene {
  public:
   SteppedScene(const std::optional<std::string>& text, const std::string& name,
                const std::vector<std::string>& overrides, int threads)
-      : told_(scene_of(text, name, overrides)) {
+      : scene_(scene_of(text, name, overrides)) {
     simulation_ = std::make_unique<Simulation>(with_grains(), checked(threads));
   }
   /// Goes on from a file that save() wrote.
   SteppedScene(const std::string& file, int threads) {
     particles::Checkpoint checkpoint = particles::read_checkpoint(file);
-    told_ = particles::parse_scene(checkpoint.scene, "scene");
+    scene_ = particles::parse_scene(checkpoint.scene, "scene");
     simulation_ = std::make_unique<Simulation>(with_grains(), std::move(checkpoint.state), checked(threads));
   }
 
@@ -101,7 +101,7 @@ class SteppedScene {
   void save(const std::string& file) {
     particles::Checkpoint checkpoint;
     checkpoint.state = look([&](Simulation& s) {
-      checkpoint.scene = particles::scene_text(told_);
+      checkpoint.scene = particles::scene_text(scene_);
       return s.state();
     });
     particles::write_checkpoint(file, checkpoint);
@@ -149,9 +149,9 @@ class SteppedScene {
 
   /// The scene as told, with the grains of another run in place of its name.
   Scene with_grains() const {
-    Scene scene = told_;
-    if (const auto* asked = std::get_if<particles::GrainsOfRun>(&scene.grains.source))
-      scene.grains.source = particles::grains_of_run(*asked).grains;
+    Scene scene = scene_;
+    if (const auto* requested = std::get_if<particles::GrainsOfRun>(&scene.grains.source))
+      scene.grains.source = particles::grains_of_run(*requested).grains;
     return scene;
   }
 
@@ -159,13 +159,13 @@ class SteppedScene {
   template <class Change>
   void change_stage(const Change& change, const std::string& moved = "") {
     look([&](Simulation& s) {
-      Scene scene = told_;
+      Scene scene = scene_;
       particles::Stage& stage = scene.stages[s.next_stage()];
       if (stage.turns) stage.duration_s = particles::duration_s(stage), stage.turns.reset();
       change(stage);
       scene = particles::parse_scene(particles::scene_text(scene), "scene");
       s.change_stage(scene.stages[s.next_stage()], moved);
-      told_ = scene;
+      scene_ = scene;
     });
   }
 
@@ -183,7 +183,7 @@ class SteppedScene {
   }
 
   mutable std::mutex turn_;
-  Scene told_;  // with what setters changed
+  Scene scene_;  // with what setters changed
   std::unique_ptr<Simulation> simulation_;
   std::string fault_;  // of a step that must not be built upon
 };

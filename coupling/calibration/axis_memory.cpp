@@ -40,8 +40,8 @@ Deviator carried_axes(const StressPath& path, const AxisMemory& law) {
   for (const PathStep& step : path.steps) {
     A = renewed(A, step, law);
     if (!law.c_rho) continue;
-    const double kept = std::exp(-2 * *law.c_rho * step.strain);
-    rho = kept * rho + (1 - kept) * std::abs(step.axis + law.m * A);
+    const double remaining = std::exp(-2 * *law.c_rho * step.strain);
+    rho = remaining * rho + (1 - remaining) * std::abs(step.axis + law.m * A);
   }
   const Deviator sum = path.axis + law.m * A;
   if (!law.c_rho) rho = std::abs(sum);

@@ -36,8 +36,8 @@ template <class Value>
 double carried_mean(const StressPath& path, double c, double first, const Value& value) {
   double mean = first;
   for (const PathStep& step : path.steps) {
-    const double kept = std::exp(-2 * c * step.strain);
-    mean = kept * mean + (1 - kept) * value(step);
+    const double remaining = std::exp(-2 * c * step.strain);
+    mean = remaining * mean + (1 - remaining) * value(step);
   }
   return mean;
 }

@@ -17,10 +17,10 @@ CalibratedLaw calibrated(const std::vector<std::vector<FrictionPoint>>& runs, co
   CalibratedLaw law{form, fit_friction(all, form), {}, all.front().I, all.front().I};
   // A table that is held in one interval may become too flat in the next.
   for (int round = 0; round < 20; ++round) {
-    const FrictionForm kept = kept_well_posed(law.form, law.fit.law);
-    if (kept.least_growth == law.form.least_growth) break;
-    law.form = kept;
-    law.fit = fit_friction(all, kept);
+    const FrictionForm constrained = well_posed_form(law.form, law.fit.law);
+    if (constrained.least_growth == law.form.least_growth) break;
+    law.form = constrained;
+    law.fit = fit_friction(all, constrained);
   }
   law.draws = bootstrapped(runs, law.form, draws, 1, before_each);
   for (const FrictionPoint& point : all) {

@@ -17,7 +17,7 @@ struct CalibratedLaw {
   BandOfDraws band() const { return {form, draws}; }
 };
 
-/// A table of mu is kept well-posed (kept_well_posed()) at each of its I. Throws InputError as
+/// A table of mu is well-posed (well_posed_form()) at each of its I. Throws InputError as
 /// fit_friction(). `before_each` draw, if there is one, is called.
 CalibratedLaw calibrated(const std::vector<std::vector<FrictionPoint>>& runs, const FrictionForm& form,
                          int draws, const std::function<void()>& before_each = {});

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t points_of_a_table = 24;        // fewer hold no knots
 constexpr std::size_t points_of_a_good_table = 100;  // fewer follow their noise: a formula says more
-constexpr std::size_t kept_draws = 16;               // in the law's file: the continuum solves each
+constexpr std::size_t saved_draws = 16;              // in the law's file: the continuum solves each
 
 using PointsOfRuns = std::vector<std::vector<FrictionPoint>>;
 
@@ -51,13 +51,13 @@ void fit_forms(Calibration& calibration) {
   std::vector<FrictionForm> forms = formulas();
   if (const auto table = table_of(points, FormKind::table)) forms.push_back(*table);
   const bool good = forms.back().kind == FormKind::table && count >= points_of_a_good_table;
-  const std::string asked =
+  const std::string requested =
       name_of(form_named(calibration.options.form.value_or(good ? TabulatedLaw::name : LogLaw::name)));
   bool found = false;
   for (const FrictionForm& form : forms) {
     // One form more than the points allow is no fault unless it was asked for.
-    if (name_of(form) != asked && count <= form.size()) continue;
-    if (name_of(form) == asked) {
+    if (name_of(form) != requested && count <= form.size()) continue;
+    if (name_of(form) == requested) {
       calibration.chosen = calibration.forms.size();
       found = true;
     }
@@ -85,7 +85,7 @@ RheologyFit rheology_of(const Calibration& calibration) {
   fit.mu = measured_friction(law.form, law.fit.law, law.draws, law.I_min, law.I_max);
   fit.rms_misfit = law.fit.rms_misfit;
   for (const Coefficients& draw : law.draws) {
-    if (fit.draws.size() == kept_draws) break;
+    if (fit.draws.size() == saved_draws) break;
     FrictionLaw mu = measured_friction(law.form, draw, {}, law.I_min, law.I_max);
     // Few and scattered points, of a small drum, give some that no flow could have.
     if (faults_of(mu).empty()) fit.draws.push_back(std::move(mu));

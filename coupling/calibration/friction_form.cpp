@@ -139,11 +139,11 @@ double least_coefficient(const FrictionForm& form, std::size_t index) {
   return growth * interval_of(form, index - 1);
 }
 
-FrictionForm kept_well_posed(const FrictionForm& form, const Coefficients& law) {
+FrictionForm well_posed_form(const FrictionForm& form, const Coefficients& law) {
   if (form.kind != FormKind::table) return form;
-  FrictionForm kept = form;
+  FrictionForm constrained = form;
   bool flat = false;
-  kept.least_growth.resize(form.knots.size() - 1, standing_growth);
+  constrained.least_growth.resize(form.knots.size() - 1, standing_growth);
   const FormCurve curve(form, law);
   for (std::size_t j = 0; j + 1 < form.knots.size(); ++j) {
     constexpr int places = 40;
@@ -161,10 +161,10 @@ FrictionForm kept_well_posed(const FrictionForm& form, const Coefficients& law) 
     const double chord = law[j + 1] / interval_of(form, j);
     const double raised = 1.01 * std::min(lacks * chord, 2 * needed);
     if (lacks <= 1 || raised <= chord) continue;
-    kept.least_growth[j] = raised;
+    constrained.least_growth[j] = raised;
     flat = true;
   }
-  return flat ? kept : form;
+  return flat ? constrained : form;
 }
 
 std::size_t held_intervals(const FrictionForm& form, const Coefficients& law) {

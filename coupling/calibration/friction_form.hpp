@@ -68,7 +68,7 @@ double friction_slope(const FrictionForm& form, const Coefficients& law, double 
 /// Mech. 779 (2015)), about mu^2/4. A flatter law has no flow that a mesh could resolve. `slope_besides` is
 /// counted in, as in the margin that a flow states. What is no table of mu, or well-posed at each of its I,
 /// comes back as it is.
-FrictionForm kept_well_posed(const FrictionForm& form, const Coefficients& law);
+FrictionForm well_posed_form(const FrictionForm& form, const Coefficients& law);
 
 /// Intervals of a table of mu that are held at their least growth.
 std::size_t held_intervals(const FrictionForm& form, const Coefficients& law);

@@ -103,9 +103,9 @@ LawBlock point_of(const Block& block, double x, double z, const BlockSelection& 
   point.turn = across / p.value;
   point.turn_error = error(across, along);
   const double s_squared = difference.value * difference.value + shear.value * shear.value;
-  const double amount_squared = s_squared - difference.variance - shear.variance;
-  point.amount = std::sqrt(std::max(amount_squared, 0.0)) / p.value;
-  point.amount_error = error(point.amount * p.value, 0);
+  const double deviator_squared = s_squared - difference.variance - shear.variance;
+  point.stress_ratio = std::sqrt(std::max(deviator_squared, 0.0)) / p.value;
+  point.stress_ratio_error = error(point.stress_ratio * p.value, 0);
   point.dilatancy = (stretch_x.value + stretch_z.value) / (2 * rate);
   usable = point.friction.I >= selection.I_min && point.friction.I <= selection.I_max;
   return point;
@@ -171,10 +171,11 @@ std::vector<FrictionPoint> turns(const std::vector<LawBlock>& points) {
   return result;
 }
 
-std::vector<FrictionPoint> amounts(const std::vector<LawBlock>& points) {
+std::vector<FrictionPoint> stress_ratios(const std::vector<LawBlock>& points) {
   std::vector<FrictionPoint> result;
   for (const LawBlock& point : points)
-    result.push_back({point.friction.I, point.amount, point.friction.I_error, point.amount_error});
+    result.push_back(
+        {point.friction.I, point.stress_ratio, point.friction.I_error, point.stress_ratio_error});
   return result;
 }
 

@@ -36,8 +36,8 @@ struct LawBlock {
   double turn_error = 0;
   double strain_rate = 0;  ///< 2|D|
   double p = 0;
-  double amount = 0;  ///< |s|/p, s the deviator of the stress, |s| = sqrt(s:s/2), less its variance
-  double amount_error = 0;
+  double stress_ratio = 0;  ///< |s|/p, s the deviator of the stress, |s| = sqrt(s:s/2), less its variance
+  double stress_ratio_error = 0;
   double dilatancy = 0;  ///< div v/(2|D|)
 };
 
@@ -54,7 +54,7 @@ std::vector<FrictionPoint> frictions(const std::vector<LawBlock>& points);
 std::vector<FrictionPoint> turns(const std::vector<LawBlock>& points);
 
 /// The amount of the stress |s|/p of each point over its inertial number, in the place of mu.
-std::vector<FrictionPoint> amounts(const std::vector<LawBlock>& points);
+std::vector<FrictionPoint> stress_ratios(const std::vector<LawBlock>& points);
 
 /// Friction and inertial number for a law with k, the ratios of simple shear: mu = M (1 + k)/2 and
 /// I = I_p sqrt((1 + k)/2) of a point's M and I_p, k that of the smooth law there (shear_state()).

@@ -149,7 +149,7 @@ double half_width_99(const FrictionFit& fit, double variance) {
   // With an intrinsic scatter the reduced chi^2 is one, and the scatter is what the points say.
   const double reduced_chi2 = fit.birge_ratio <= 1 ? fit.birge_ratio * fit.birge_ratio : 1;
   return std::sqrt(variance) *
-         statistics::quantile_99_of_told_errors(reduced_chi2, static_cast<int>(fit.points) - 2);
+         statistics::quantile_99_of_stated_errors(reduced_chi2, static_cast<int>(fit.points) - 2);
 }
 
 }  // namespace drumlin::coupling

@@ -14,8 +14,8 @@
 namespace drumlin::coupling {
 namespace {
 
-constexpr double huber = 1.5;      // Huber's k
-constexpr double kept = 0.778474;  // mean of min(z^2, k^2) of a normal z
+constexpr double huber = 1.5;              // Huber's k
+constexpr double mean_clipped = 0.778474;  // mean of min(z^2, k^2) of a normal z
 constexpr int block_length = 4;
 // Points exactly on a law have no scatter, yet their weights must stay finite.
 constexpr double least_scatter_squared = 1e-24;
@@ -169,7 +169,7 @@ double excess(const Points& points, const FrictionForm& form, const Coefficients
                     huber * huber);
   }
   const double freedom = static_cast<double>(points.size()) - static_cast<double>(form.size());
-  return sum / (kept * freedom);
+  return sum / (mean_clipped * freedom);
 }
 
 void check(const std::vector<FrictionPoint>& points, const FrictionForm& form) {

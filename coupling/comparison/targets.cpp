@@ -67,17 +67,23 @@ void judge(Target& target, double open) {
   if (noisy) add_remark(target, fmt::format("the particles' own interval amounts to {:.2g}", open));
 }
 
-Target assessed(const FieldTarget& asked, const std::vector<FieldComparison>& fields) {
-  Target target{asked.field, asked.zone, asked.words, asked.limit, no_value, Outcome::not_measured, ""};
+Target assessed(const FieldTarget& requirement, const std::vector<FieldComparison>& fields) {
+  Target target{requirement.field,
+                requirement.zone,
+                requirement.words,
+                requirement.limit,
+                no_value,
+                Outcome::not_measured,
+                ""};
   const auto field = std::find_if(fields.begin(), fields.end(), [&](const FieldComparison& candidate) {
-    return candidate.overlay.field == asked.field;
+    return candidate.overlay.field == requirement.field;
   });
   if (field == fields.end()) return target;
   if (!field->overlay.present) target.remark = "a side has no such field";
   for (const auto& [zone, errors] : field->zones) {
-    if (zone.name != asked.zone) continue;
-    target.value = errors.*asked.measure;
-    judge(target, interval_of(*field, zone.name, asked.measure == &FieldErrors::rel_l2));
+    if (zone.name != requirement.zone) continue;
+    target.value = errors.*requirement.measure;
+    judge(target, interval_of(*field, zone.name, requirement.measure == &FieldErrors::rel_l2));
     if (errors.undefined > 0) {
       target.undefined = true;
       target.outcome = Outcome::missed;
@@ -91,13 +97,14 @@ Target assessed(const FieldTarget& asked, const std::vector<FieldComparison>& fi
   return target;
 }
 
-Target assessed(const ScalarTarget& asked, const std::vector<ScalarPair>& scalars) {
-  Target target{asked.name, "", asked.words, asked.limit, no_value, Outcome::not_measured, ""};
+Target assessed(const ScalarTarget& requirement, const std::vector<ScalarPair>& scalars) {
+  Target target{requirement.name,      "", requirement.words, requirement.limit, no_value,
+                Outcome::not_measured, ""};
   for (const auto& pair : scalars) {
-    if (pair.name != asked.name) continue;
+    if (pair.name != requirement.name) continue;
     const double difference = std::abs(pair.continuum - pair.particles);
-    target.value = asked.relative ? difference / std::abs(pair.particles) : difference;
-    judge(target, pair.ci99.value_or(no_value) / (asked.relative ? std::abs(pair.particles) : 1));
+    target.value = requirement.relative ? difference / std::abs(pair.particles) : difference;
+    judge(target, pair.ci99.value_or(no_value) / (requirement.relative ? std::abs(pair.particles) : 1));
     if (std::isnan(pair.particles)) target.remark = "not measured on the particles";
     if (std::isnan(pair.continuum)) target.remark = "not computed by the continuum";
   }
@@ -109,8 +116,8 @@ Target assessed(const ScalarTarget& asked, const std::vector<ScalarPair>& scalar
 std::vector<Target> judged_targets(const std::vector<FieldComparison>& fields,
                                    const std::vector<ScalarPair>& scalars) {
   std::vector<Target> targets;
-  for (const auto& asked : field_targets) targets.push_back(assessed(asked, fields));
-  for (const auto& asked : scalar_targets) targets.push_back(assessed(asked, scalars));
+  for (const auto& requirement : field_targets) targets.push_back(assessed(requirement, fields));
+  for (const auto& requirement : scalar_targets) targets.push_back(assessed(requirement, scalars));
   return targets;
 }
 

@@ -25,6 +25,6 @@ void describe(Visitor& v, StageGravity& g) {
 
 /// Gravity in a stage that finds `before` and of whose full length the share `done` (0 to 1) has passed.
 /// Direction and strength change at even rates: through the angles between the two as numbers.
-Gravity gravity_in_stage(const std::optional<StageGravity>& asked, const Gravity& before, double done);
+Gravity gravity_in_stage(const std::optional<StageGravity>& requested, const Gravity& before, double done);
 
 }  // namespace drumlin::particles

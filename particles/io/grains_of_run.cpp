@@ -20,8 +20,8 @@ namespace drumlin::particles {
 namespace {
 
 /// The last snapshot, or that of a time, to half a time step. Throws InputError that names the nearest.
-std::pair<std::filesystem::path, Snapshot> asked_snapshot(const RunFolder& run,
-                                                          const std::optional<double>& time_s) {
+std::pair<std::filesystem::path, Snapshot> requested_snapshot(const RunFolder& run,
+                                                              const std::optional<double>& time_s) {
   const auto last = chosen_snapshot(run, "last");
   if (!time_s) return {last, checked_snapshot(run, last)};
   double nearest = 0, distance = std::numeric_limits<double>::infinity();
@@ -72,9 +72,9 @@ std::string list_of(const Snapshot& s, const std::vector<std::string>& materials
 
 }  // namespace
 
-GrainsTakenOver grains_of_run(const GrainsOfRun& asked) {
-  RunFolder run = read_run_folder(asked.run);
-  const auto [file, snapshot] = asked_snapshot(run, asked.time_s);
+GrainsTakenOver grains_of_run(const GrainsOfRun& requested) {
+  RunFolder run = read_run_folder(requested.run);
+  const auto [file, snapshot] = requested_snapshot(run, requested.time_s);
   ListedGrains grains{run.folder / "grains.csv",
                       std::make_shared<const std::string>(list_of(snapshot, materials_of(run, snapshot)))};
   return {std::move(run), file, snapshot.time * snapshot.scales.time_s, std::move(grains)};

@@ -17,6 +17,6 @@ struct GrainsTakenOver {
 /// Places, velocities, spins, densities and materials of the grains in the snapshot that a scene asks for;
 /// impulses are not taken over. Throws InputError if the run has no such snapshot, or materials that its
 /// snapshots do not tell.
-GrainsTakenOver grains_of_run(const GrainsOfRun& asked);
+GrainsTakenOver grains_of_run(const GrainsOfRun& requested);
 
 }  // namespace drumlin::particles

@@ -65,23 +65,26 @@ struct Fastest {
   Point_mm center_mm{0, 0};
 };
 
-Fastest fastest_of(const WallMotion& asked, const Wall& wall) {
+Fastest fastest_of(const WallMotion& wall_motion, const Wall& wall) {
   const double turn = 2 * std::numbers::pi;
-  if (const auto* r = std::get_if<Rotation>(&asked.motion))
+  if (const auto* r = std::get_if<Rotation>(&wall_motion.motion))
     return {"speed_rpm", {}, turn / 60 * r->speed_rpm, r->center_mm};
-  if (const auto* r = std::get_if<Rocking>(&asked.motion))
+  if (const auto* r = std::get_if<Rocking>(&wall_motion.motion))
     return {"amplitude_deg",
             {},
             turn * r->frequency_hz * r->amplitude_deg * std::numbers::pi / 180,
             r->center_mm};
-  if (const auto* t = std::get_if<Translation>(&asked.motion)) return {"velocity_mm_s", t->velocity_mm_s};
-  if (const auto* o = std::get_if<Oscillation>(&asked.motion))
+  if (const auto* t = std::get_if<Translation>(&wall_motion.motion))
+    return {"velocity_mm_s", t->velocity_mm_s};
+  if (const auto* o = std::get_if<Oscillation>(&wall_motion.motion))
     return {"amplitude_mm",
             {turn * o->frequency_hz * o->amplitude_mm[0], turn * o->frequency_hz * o->amplitude_mm[1]}};
-  if (const auto* f = std::get_if<ForceControl>(&asked.motion)) return {"velocity_mm_s", f->velocity_mm_s};
-  if (const auto* p = std::get_if<PressureControl>(&asked.motion)) return {"velocity_mm_s", p->velocity_mm_s};
-  if (std::holds_alternative<Belt>(asked.motion)) return {"speed_mm_s", {}};  // its shape rests
-  const auto& strain = std::get<StrainRate>(asked.motion);
+  if (const auto* f = std::get_if<ForceControl>(&wall_motion.motion))
+    return {"velocity_mm_s", f->velocity_mm_s};
+  if (const auto* p = std::get_if<PressureControl>(&wall_motion.motion))
+    return {"velocity_mm_s", p->velocity_mm_s};
+  if (std::holds_alternative<Belt>(wall_motion.motion)) return {"speed_mm_s", {}};  // its shape rests
+  const auto& strain = std::get<StrainRate>(wall_motion.motion);
   const auto& e = strain.direction;
   const Point_mm middle = middle_mm(wall);
   const double along =
@@ -128,14 +131,14 @@ double speed_across(const Fastest& motion, const Wall& wall) {
 }
 
 /// Whether stages before have brought a wall where its shape alone does not tell how fast it moves.
-bool stands_elsewhere(const Scene& scene, std::size_t stage, const WallMotion& asked) {
+bool stands_elsewhere(const Scene& scene, std::size_t stage, const WallMotion& wall_motion) {
   const auto turns = [](const WallMotion& m) {
     return std::holds_alternative<Rotation>(m.motion) || std::holds_alternative<Rocking>(m.motion);
   };
-  const bool by_place = turns(asked) || std::holds_alternative<StrainRate>(asked.motion);
+  const bool by_place = turns(wall_motion) || std::holds_alternative<StrainRate>(wall_motion.motion);
   for (std::size_t s = 0; s < stage; ++s)
     for (const WallMotion& before : scene.stages[s].motions)
-      if (before.wall == asked.wall && (by_place || turns(before))) return true;
+      if (before.wall == wall_motion.wall && (by_place || turns(before))) return true;
   return false;
 }
 
@@ -143,11 +146,11 @@ bool stands_elsewhere(const Scene& scene, std::size_t stage, const WallMotion& a
 void check_walls(const Scene& scene, std::size_t s, double smallest_mm, Faults& faults) {
   const double h = scene.stages[s].time_step_s, longest = longest_push * smallest_mm;
   for (std::size_t m = 0; m < scene.stages[s].motions.size(); ++m) {
-    const WallMotion& asked = scene.stages[s].motions[m];
-    if (stands_elsewhere(scene, s, asked)) continue;
+    const WallMotion& wall_motion = scene.stages[s].motions[m];
+    if (stands_elsewhere(scene, s, wall_motion)) continue;
     for (const Wall& wall : scene.walls) {
-      if (wall.name != asked.wall) continue;
-      const Fastest motion = fastest_of(asked, wall);
+      if (wall.name != wall_motion.wall) continue;
+      const Fastest motion = fastest_of(wall_motion, wall);
       const double way = speed_across(motion, wall) * h;
       if (!(way > longest * (1 + relative_rounding))) continue;
       const std::string key = fmt::format("{}.motions.{}", stage_key(s), m);

@@ -24,9 +24,9 @@ bool moves_walls_by_force(const Scene& scene) {
   });
 }
 
-bool is_driven(const WallMotion& asked) {
-  return std::holds_alternative<ForceControl>(asked.motion) ||
-         std::holds_alternative<PressureControl>(asked.motion);
+bool is_driven(const WallMotion& wall_motion) {
+  return std::holds_alternative<ForceControl>(wall_motion.motion) ||
+         std::holds_alternative<PressureControl>(wall_motion.motion);
 }
 
 bool ends_stages_early(const Scene& scene) {

@@ -38,22 +38,24 @@ void add_shapes(const Wall& wall, const Scales& scales, std::vector<Shape>& shap
 }
 
 /// The motion of wall `wall`. `driven`: how many walls the stage drives before this one.
-Motion motion_of(const WallMotion& asked, const Walls& walls, int wall, const Scales& scales, int driven) {
-  if (const auto* r = std::get_if<Rotation>(&asked.motion))
+Motion motion_of(const WallMotion& wall_motion, const Walls& walls, int wall, const Scales& scales,
+                 int driven) {
+  if (const auto* r = std::get_if<Rotation>(&wall_motion.motion))
     return Turning{r->speed_rpm * 2 * std::numbers::pi / 60 * scales.time_s, point_of(r->center_mm, scales)};
-  if (const auto* o = std::get_if<Oscillation>(&asked.motion))
+  if (const auto* o = std::get_if<Oscillation>(&wall_motion.motion))
     return Shaking{point_of(o->amplitude_mm, scales), 2 * std::numbers::pi * o->frequency_hz * scales.time_s,
                    o->phase_deg * radian};
-  if (const auto* r = std::get_if<Rocking>(&asked.motion))
+  if (const auto* r = std::get_if<Rocking>(&wall_motion.motion))
     return Swinging{r->amplitude_deg * radian, 2 * std::numbers::pi * r->frequency_hz * scales.time_s,
                     r->phase_deg * radian, point_of(r->center_mm, scales)};
-  if (const auto* f = std::get_if<ForceControl>(&asked.motion)) return driven_law(*f, scales, driven);
-  if (const auto* p = std::get_if<PressureControl>(&asked.motion))
+  if (const auto* f = std::get_if<ForceControl>(&wall_motion.motion)) return driven_law(*f, scales, driven);
+  if (const auto* p = std::get_if<PressureControl>(&wall_motion.motion))
     return pressed_law(*p, walls, wall, scales, driven);
-  if (const auto* e = std::get_if<StrainRate>(&asked.motion)) return straining_law(*e, walls, wall, scales);
+  if (const auto* e = std::get_if<StrainRate>(&wall_motion.motion))
+    return straining_law(*e, walls, wall, scales);
   const double unit = 1e-3 / scales.velocity_m_s();
-  if (const auto* b = std::get_if<Belt>(&asked.motion)) return Running{b->speed_mm_s * unit};
-  const auto& t = std::get<Translation>(asked.motion);
+  if (const auto* b = std::get_if<Belt>(&wall_motion.motion)) return Running{b->speed_mm_s * unit};
+  const auto& t = std::get<Translation>(wall_motion.motion);
   return Gliding{t.velocity_mm_s[0] * unit, t.velocity_mm_s[1] * unit};
 }
 
@@ -196,10 +198,10 @@ std::vector<DrivenState> begin_stage(Walls& walls, const Stage& stage, const Sca
     walls.pose_at_start[w] = walls.pose(static_cast<int>(w), time_in_old_stage, driven);
     const Point had = straight_velocity(walls.motions[w], time_in_old_stage, driven);
     walls.motions[w].clear();
-    for (const WallMotion& asked : stage.motions)
-      if (asked.wall == walls.names[w])
+    for (const WallMotion& wall_motion : stage.motions)
+      if (wall_motion.wall == walls.names[w])
         walls.motions[w].push_back(
-            motion_of(asked, walls, static_cast<int>(w), scales, static_cast<int>(states.size())));
+            motion_of(wall_motion, walls, static_cast<int>(w), scales, static_cast<int>(states.size())));
     if (const Driven* now = driven_motion(walls, w))
       states.push_back({0, had.x * now->direction.x + had.z * now->direction.z});
   }

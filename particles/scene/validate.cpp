@@ -137,14 +137,15 @@ void check_order(const Stage& stage, std::size_t m, const std::string& key, Faul
                       {key}});
 }
 
-void check_belt(const Scene& scene, const WallMotion& asked, const std::string& key, Faults& faults) {
-  if (!std::holds_alternative<Belt>(asked.motion)) return;
+void check_belt(const Scene& scene, const WallMotion& wall_motion, const std::string& key, Faults& faults) {
+  if (!std::holds_alternative<Belt>(wall_motion.motion)) return;
   for (std::size_t w = 0; w < scene.walls.size(); ++w)
-    if (scene.walls[w].name == asked.wall && scene.walls[w].rough)
-      faults.push_back({key + ".kind",
-                        fmt::format("runs along \"{}\", whose glued discs would not follow", asked.wall),
-                        "a wall without rough",
-                        {key, wall_key(w) + ".rough"}});
+    if (scene.walls[w].name == wall_motion.wall && scene.walls[w].rough)
+      faults.push_back(
+          {key + ".kind",
+           fmt::format("runs along \"{}\", whose glued discs would not follow", wall_motion.wall),
+           "a wall without rough",
+           {key, wall_key(w) + ".rough"}});
 }
 
 void check_motions(const Scene& scene, std::size_t s, Faults& faults) {

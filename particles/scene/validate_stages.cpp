@@ -60,9 +60,9 @@ void check_opened(const Scene& scene, Faults& faults) {
 void check_coefficients(const Scene& scene, std::size_t s, Faults& faults) {
   const Stage& stage = scene.stages[s];
   const Effects& effects = scene.effects;
-  const auto check = [&](const std::string& name, bool asked, bool there) {
+  const auto check = [&](const std::string& name, bool is_set, bool there) {
     const std::string key = fmt::format("stages.{}.{}", s, name);
-    if (asked && !there)
+    if (is_set && !there)
       faults.push_back({key,
                         "changes an effect that the scene does not name",
                         "together with effects." + name + ", or not at all",
@@ -83,7 +83,7 @@ void check_coefficients(const Scene& scene, std::size_t s, Faults& faults) {
   }
 }
 
-void check_pressure(const Scene& scene, const WallMotion& asked, const PressureControl& pressure,
+void check_pressure(const Scene& scene, const WallMotion& wall_motion, const PressureControl& pressure,
                     const std::string& key, Faults& faults) {
   if (pressure.between) {
     const auto names = wall_names(scene);
@@ -93,8 +93,8 @@ void check_pressure(const Scene& scene, const WallMotion& asked, const PressureC
     return;
   }
   for (const Wall& wall : scene.walls)
-    if (wall.name == asked.wall && (std::holds_alternative<SegmentShape>(wall.shape) ||
-                                    std::holds_alternative<PolylineShape>(wall.shape)))
+    if (wall.name == wall_motion.wall && (std::holds_alternative<SegmentShape>(wall.shape) ||
+                                          std::holds_alternative<PolylineShape>(wall.shape)))
       return;
   faults.push_back({key + ".wall",
                     "has no length that a pressure could act on",
@@ -104,11 +104,11 @@ void check_pressure(const Scene& scene, const WallMotion& asked, const PressureC
 
 void check_directions(const Scene& scene, std::size_t s, Faults& faults) {
   for (std::size_t m = 0; m < scene.stages[s].motions.size(); ++m) {
-    const WallMotion& asked = scene.stages[s].motions[m];
+    const WallMotion& wall_motion = scene.stages[s].motions[m];
     const std::string key = fmt::format("stages.{}.motions.{}", s, m);
-    if (const auto* pressure = std::get_if<PressureControl>(&asked.motion))
-      check_pressure(scene, asked, *pressure, key, faults);
-    if (const auto* strain = std::get_if<StrainRate>(&asked.motion))
+    if (const auto* pressure = std::get_if<PressureControl>(&wall_motion.motion))
+      check_pressure(scene, wall_motion, *pressure, key, faults);
+    if (const auto* strain = std::get_if<StrainRate>(&wall_motion.motion))
       if (!(std::hypot(strain->direction[0], strain->direction[1]) > 0))
         faults.push_back({key + ".direction", "has no length", "any other vector", {key}});
   }
@@ -144,9 +144,9 @@ double strongest_gravity(const Scene& scene, std::size_t stage) {
   if (!scene.effects.gravity) return 0;
   double strongest = scene.effects.gravity->acceleration_m_s2, before = strongest;
   for (std::size_t s = 0; s <= stage; ++s) {
-    const auto& asked = scene.stages[s].gravity;
-    const double now = asked ? asked->acceleration_m_s2.value_or(before) : before;
-    strongest = asked && asked->ramp ? std::max(before, now) : now;
+    const auto& change = scene.stages[s].gravity;
+    const double now = change ? change->acceleration_m_s2.value_or(before) : before;
+    strongest = change && change->ramp ? std::max(before, now) : now;
     before = now;
   }
   return strongest;

@@ -19,8 +19,8 @@ using namespace particles;
 namespace {
 
 constexpr int most_that_flow =
-    10000;                      // larger drums are packed and begin to turn: as good for sweeps and threads
-constexpr double kept_s = 0.2;  // of the last stage, to be replayed
+    10000;  // larger drums are packed and begin to turn: as good for sweeps and threads
+constexpr double replayed_s = 0.2;  // of the last stage, to be replayed
 
 Scene drum_of(Scene scene, int discs) {
   auto* generated = std::get_if<GeneratedGrains>(&scene.grains.source);
@@ -38,7 +38,7 @@ Scene drum_of(Scene scene, int discs) {
   settle.turns = flow.turns = std::nullopt;
   const bool flows = discs <= most_that_flow;
   settle.duration_s = flows ? 0.6 : 0.3;
-  flow.duration_s = (flows ? 1.0 : 0.1) + kept_s;
+  flow.duration_s = (flows ? 1.0 : 0.1) + replayed_s;
   scene.stages = {settle, flow};
   scene.solver = SolverSettings{};
   return scene;
@@ -55,7 +55,7 @@ SimulationState flowing_state(const Scene& scene, const std::filesystem::path& c
   }
   Simulation simulation(scene, 2);
   const double end =
-      (duration_s(scene.stages[0]) + duration_s(scene.stages[1]) - kept_s) / simulation.scales().time_s;
+      (duration_s(scene.stages[0]) + duration_s(scene.stages[1]) - replayed_s) / simulation.scales().time_s;
   while (simulation.state().time() < end) (void)simulation.step();
   Checkpoint checkpoint;
   checkpoint.scene = text;

@@ -65,17 +65,17 @@ TEST(LawPoints, ALawWithKIsThatOfSimpleShear) {
 }
 
 TEST(LawPoints, AKnownLawComesBackWithinItsBand) {
-  int inside = 0, asked = 0;
+  int inside = 0, compared = 0;
   for (unsigned seed = 0; seed < 10; ++seed) {
     const CalibratedLaw law =
         calibrated({frictions(law_points(layer(0.2, 0.1, 0.1, seed), anywhere))}, logarithm, 100);
     for (const double I : {5e-4, 5e-3, 5e-2}) {
       const FrictionBand band = law.band().at(I);
       inside += band.low <= friction(logarithm, truth, I) && friction(logarithm, truth, I) <= band.high;
-      ++asked;
+      ++compared;
     }
   }
-  EXPECT_GE(inside, asked - 3) << asked;
+  EXPECT_GE(inside, compared - 3) << compared;
 }
 
 TEST(LawPoints, AMapWithoutWhatTheLawNeedsIsRefused) {

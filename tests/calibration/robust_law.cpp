@@ -65,17 +65,17 @@ TEST(RobustLaw, HoldsASlopeThatWouldBeNegativeAtNought) {
 }
 
 TEST(RobustLaw, BandOfItsDrawsHoldsTheTruthAsOftenAsItSays) {
-  int inside = 0, asked = 0;
+  int inside = 0, compared = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
     const auto points = layers(truth, 0.01, 60, 100 + seed);
     const BandOfDraws draws(log_linear, bootstrapped({points}, log_linear, 100));
     for (const double I : {1e-3, 1e-2, 0.05}) {
       const FrictionBand band = draws.at(I, 0.9);
       inside += band.low <= friction(log_linear, truth, I) && friction(log_linear, truth, I) <= band.high;
-      ++asked;
+      ++compared;
     }
   }
-  EXPECT_NEAR(static_cast<double>(inside) / asked, 0.9, 0.1);
+  EXPECT_NEAR(static_cast<double>(inside) / compared, 0.9, 0.1);
 }
 
 TEST(RobustLaw, DrawsAreTheSameEachTime) {

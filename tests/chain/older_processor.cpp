@@ -21,9 +21,9 @@ int64_t SupportedTargets() {
   for (int64_t left = targets; left != 0; left &= left - 1) {
     const int64_t target = left & -left;
     if (std::string_view(TargetName(target)) != name) continue;
-    if (std::FILE* const told = std::fopen(file, "a")) {
-      std::fprintf(told, "%s\n", name);
-      std::fclose(told);
+    if (std::FILE* const record = std::fopen(file, "a")) {
+      std::fprintf(record, "%s\n", name);
+      std::fclose(record);
     }
     return target;
   }

@@ -153,7 +153,7 @@ TEST(Parts, OfARunAgainstItselfAreExactlyZero) {
       if (pair.name != "lambda_same_window" && !std::isnan(pair.particles)) {
         EXPECT_EQ(pair.particles, pair.continuum) << pair.name;
       }
-    for (const auto& asked : comparison.targets) EXPECT_EQ(asked.outcome, Outcome::met) << asked.quantity;
+    for (const auto& target : comparison.targets) EXPECT_EQ(target.outcome, Outcome::met) << target.quantity;
   }
 }
 

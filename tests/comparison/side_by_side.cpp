@@ -22,9 +22,9 @@ const Target& target(const Comparison& comparison, const std::string& quantity, 
 TEST(Comparison, OfARunWithItselfMeetsEveryTargetThatIsMeasured) {
   const auto comparison = compare(example_side(), example_side());
   ASSERT_EQ(comparison.targets.size(), 11u);
-  for (const auto& asked : comparison.targets) {
-    EXPECT_EQ(asked.outcome, Outcome::met) << asked.quantity << " " << asked.zone;
-    EXPECT_EQ(asked.value, 0) << asked.quantity;
+  for (const auto& one : comparison.targets) {
+    EXPECT_EQ(one.outcome, Outcome::met) << one.quantity << " " << one.zone;
+    EXPECT_EQ(one.value, 0) << one.quantity;
   }
 }
 

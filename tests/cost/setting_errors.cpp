@@ -60,7 +60,7 @@ TEST(SettingError, IntervalCoversThePowersThatTheScatterLeavesOpen) {
 }
 
 /// Share of noisy records of so many settings whose interval holds the error C at the setting 1.
-double coverage(int settings, double C, double told) {
+double coverage(int settings, double C, double stated) {
   std::mt19937_64 engine(5);
   std::normal_distribution<double> normal;
   int inside = 0;
@@ -68,7 +68,7 @@ double coverage(int settings, double C, double told) {
   for (int trial = 0; trial < trials; ++trial) {
     std::vector<SettingPoint> points;
     for (int i = 0; i < settings; ++i)
-      points.push_back({1.0 + i, 7 + C * (1 + i) + normal(engine), told * normal_quantile_99});
+      points.push_back({1.0 + i, 7 + C * (1 + i) + normal(engine), stated * normal_quantile_99});
     const auto found = setting_error(points, 1, both);
     inside += std::abs(found->error - C) <= found->ci99;
   }
@@ -79,8 +79,8 @@ TEST(SettingError, IntervalHoldsTheError) {
   // Intervals of the points: none, right, three times too small. Binomial error of 4000 trials 0.16 %.
   for (const int settings : {3, 4, 5})
     for (const double C : {0.0, 1.0})
-      for (const double told : {0.0, 1.0, 1.0 / 3})
-        EXPECT_GT(coverage(settings, C, told), 0.985) << settings << ' ' << C << ' ' << told;
+      for (const double stated : {0.0, 1.0, 1.0 / 3})
+        EXPECT_GT(coverage(settings, C, stated), 0.985) << settings << ' ' << C << ' ' << stated;
 }
 
 Bodies some_grains() {

@@ -136,8 +136,8 @@ TEST(RoughWall, TurnsGrainsWithoutFriction) {
   scene.effects = {Gravity{}};
   scene.solver.tolerance = 1e-6;  // a smooth drum leaves grains where they are; an inexact solve moves them
   scene.solver.max_sweeps = 10000;
-  const auto mean_x = [](const Scene& asked) {
-    const Bodies end = bodies_at_end(asked);
+  const auto mean_x = [](const Scene& moving) {
+    const Bodies end = bodies_at_end(moving);
     double sum = 0;
     for (const double x : end.x) sum += x;
     return sum / static_cast<double>(end.count());

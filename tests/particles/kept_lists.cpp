@@ -23,17 +23,17 @@ void move(test::Grains& g, double time_step) {
   }
 }
 
-void expect_same(const ContactDetection& kept, const ContactDetection& anew, std::size_t bodies) {
-  ASSERT_EQ(kept.candidates().size(), anew.candidates().size());
-  for (std::size_t p = 0; p < kept.candidates().size(); ++p) {
-    const Candidate &a = kept.candidates()[p], &b = anew.candidates()[p];
+void expect_same(const ContactDetection& reused, const ContactDetection& anew, std::size_t bodies) {
+  ASSERT_EQ(reused.candidates().size(), anew.candidates().size());
+  for (std::size_t p = 0; p < reused.candidates().size(); ++p) {
+    const Candidate &a = reused.candidates()[p], &b = anew.candidates()[p];
     ASSERT_EQ(std::pair(a.i, a.j), std::pair(b.i, b.j));
     ASSERT_EQ(a.gap, b.gap);
     ASSERT_EQ(std::pair(a.n_x, a.n_z), std::pair(b.n_x, b.n_z));
     ASSERT_EQ(std::pair(a.wall_v_x, a.wall_v_z), std::pair(b.wall_v_x, b.wall_v_z));
   }
   for (std::size_t b = 0; b < bodies; ++b)
-    ASSERT_EQ(kept.displacement_bound(static_cast<std::int32_t>(b)),
+    ASSERT_EQ(reused.displacement_bound(static_cast<std::int32_t>(b)),
               anew.displacement_bound(static_cast<std::int32_t>(b)));
 }
 
@@ -72,16 +72,16 @@ TEST(KeptLists, FindWhatASearchFromNothingFinds) {
   for (Case& c : cases()) {
     SCOPED_TRACE(c.name);
     RandomStream random(22, "test");
-    ContactDetection kept;
-    kept.use(&pool);
+    ContactDetection reused;
+    reused.use(&pool);
     bool cheap = false;
     for (int step = 0; step < 60; ++step) {
       const DetectionInput input{walls, still, c.time_step, margin, c.period};
       ContactDetection anew;
       anew.find(c.grains.bodies, c.grains.v_x, c.grains.v_z, input);
-      kept.find(c.grains.bodies, c.grains.v_x, c.grains.v_z, input);
-      expect_same(kept, anew, c.grains.count());
-      cheap = cheap || kept.distances() < anew.distances();
+      reused.find(c.grains.bodies, c.grains.v_x, c.grains.v_z, input);
+      expect_same(reused, anew, c.grains.count());
+      cheap = cheap || reused.distances() < anew.distances();
       if (step % 3 == 0) {  // an impact impacts two grains
         const auto i =
             static_cast<std::int32_t>(random.uniform() * static_cast<double>(c.grains.count() - 1));
@@ -92,8 +92,8 @@ TEST(KeptLists, FindWhatASearchFromNothingFinds) {
           collided.push_back({b, 2 * c.time_step * std::sqrt(2.0) * std::abs(v)});
         }
         const bool more = anew.find_around(collided, c.grains.bodies, c.grains.v_x, c.grains.v_z, input);
-        EXPECT_EQ(kept.find_around(collided, c.grains.bodies, c.grains.v_x, c.grains.v_z, input), more);
-        expect_same(kept, anew, c.grains.count());
+        EXPECT_EQ(reused.find_around(collided, c.grains.bodies, c.grains.v_x, c.grains.v_z, input), more);
+        expect_same(reused, anew, c.grains.count());
       }
       move(c.grains, c.time_step);
     }
@@ -105,19 +105,19 @@ TEST(KeptLists, AreMadeAnewForOtherGrains) {
   // As many bodies, of other radii in other places: what a rank of many sees after grains have moved on.
   RandomStream random(23, "test");
   const DetectionInput input{{}, {}, 0.05, margin, {}};
-  ContactDetection kept;
+  ContactDetection reused;
   test::Grains g = packed(400, 0.7, 0.01, random);
-  for (int step = 0; step < 5; ++step) kept.find(g.bodies, g.v_x, g.v_z, input);
+  for (int step = 0; step < 5; ++step) reused.find(g.bodies, g.v_x, g.v_z, input);
   const test::Grains other = packed(400, 0.5, 0.3, random);
   ContactDetection anew;
   anew.find(other.bodies, other.v_x, other.v_z, input);
-  kept.find(other.bodies, other.v_x, other.v_z, input);
-  expect_same(kept, anew, other.count());
+  reused.find(other.bodies, other.v_x, other.v_z, input);
+  expect_same(reused, anew, other.count());
   const test::Grains fewer = packed(100, 1, 0.3, random);
   ContactDetection again;
   again.find(fewer.bodies, fewer.v_x, fewer.v_z, input);
-  kept.find(fewer.bodies, fewer.v_x, fewer.v_z, input);
-  expect_same(kept, again, fewer.count());
+  reused.find(fewer.bodies, fewer.v_x, fewer.v_z, input);
+  expect_same(reused, again, fewer.count());
 }
 
 }  // namespace

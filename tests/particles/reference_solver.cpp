@@ -179,10 +179,10 @@ TEST(Reference, AsksBeforeEachFactorisation) {
   const auto problem = crystal<CoulombSpinProblem>(12, 8, 0.4);
   ProximalNewton<CoulombSpinProblem> newton(problem);
   const std::vector<double> nothing(problem.q.size(), 0.0);
-  int asked = 0;
-  ASSERT_TRUE(newton.step(nothing, 10, [&] { return ++asked > 0; }));
-  ASSERT_GT(asked, 2);
-  EXPECT_EQ(newton.factorisations(), asked);
+  int calls = 0;
+  ASSERT_TRUE(newton.step(nothing, 10, [&] { return ++calls > 0; }));
+  ASSERT_GT(calls, 2);
+  EXPECT_EQ(newton.factorisations(), calls);
   int left = 2;
   EXPECT_FALSE(newton.step(nothing, 10, [&] { return left-- > 0; }));
   EXPECT_EQ(newton.factorisations(), 2);

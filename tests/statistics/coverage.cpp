@@ -60,13 +60,13 @@ TEST_P(FewSamples, OfALineHoldTheSlope) {
 // Errors told right, three times too small, three times too large: 99 % or more.
 TEST_P(FewSamples, WithToldErrorsHoldTheSlopeWhateverTheyTell) {
   const auto x = places(GetParam() + 1);
-  for (const double told : {1.0, 1.0 / 3, 3.0}) {
-    const std::vector<double> variance(x.size(), told * told);
+  for (const double stated : {1.0, 1.0 / 3, 3.0}) {
+    const std::vector<double> variance(x.size(), stated * stated);
     const auto holds = [&](const std::vector<double>& y) {
       const StraightLine line = *fit_line(x, y, variance);
-      return std::abs(line.slope) <= interval_factor_99(line, Variances::told) * std::sqrt(line.var_slope);
+      return std::abs(line.slope) <= interval_factor_99(line, Variances::stated) * std::sqrt(line.var_slope);
     };
-    EXPECT_GT(share_inside(holds, x.size()), 0.985) << told;
+    EXPECT_GT(share_inside(holds, x.size()), 0.985) << stated;
   }
 }
 

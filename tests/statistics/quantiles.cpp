@@ -39,9 +39,9 @@ TEST(Quantiles, OfStudentsTFallToThatOfTheNormalDistribution) {
 }
 
 TEST(Quantiles, OfToldErrorsAreTheLargerOfBoth) {
-  EXPECT_EQ(quantile_99_of_told_errors(std::numeric_limits<double>::quiet_NaN(), 0), normal_quantile_99);
-  EXPECT_EQ(quantile_99_of_told_errors(0, 4), normal_quantile_99);
-  EXPECT_DOUBLE_EQ(quantile_99_of_told_errors(4, 1), 2 * student_quantile_99(1));
+  EXPECT_EQ(quantile_99_of_stated_errors(std::numeric_limits<double>::quiet_NaN(), 0), normal_quantile_99);
+  EXPECT_EQ(quantile_99_of_stated_errors(0, 4), normal_quantile_99);
+  EXPECT_DOUBLE_EQ(quantile_99_of_stated_errors(4, 1), 2 * student_quantile_99(1));
 }
 
 }  // namespace

@@ -94,15 +94,15 @@ TEST(StraightLine, RelativeVariancesDoNotKnowTheirUnit) {
                      other = *fit_line(some_x, some_y, scaled);
   EXPECT_NEAR(half_width(other, Variances::relative), half_width(line, Variances::relative), 1e-12);
   EXPECT_NEAR(half_width(other, Variances::known), 10 * half_width(line, Variances::known), 1e-12);
-  EXPECT_GE(half_width(other, Variances::told), half_width(other, Variances::known));
-  EXPECT_GE(half_width(line, Variances::told), half_width(line, Variances::relative));
+  EXPECT_GE(half_width(other, Variances::stated), half_width(other, Variances::known));
+  EXPECT_GE(half_width(line, Variances::stated), half_width(line, Variances::relative));
 }
 
 TEST(StraightLine, TwoPointsSayNothingOfTheirScatter) {
   const StraightLine line = *fit_line(Values{0, 1}, Values{1, 3});
   EXPECT_EQ(line.degrees_of_freedom, 0);
   EXPECT_TRUE(std::isnan(interval_factor_99(line, Variances::relative)));
-  EXPECT_EQ(interval_factor_99(line, Variances::told), normal_quantile_99);
+  EXPECT_EQ(interval_factor_99(line, Variances::stated), normal_quantile_99);
 }
 
 }  // namespace

@@ -92,14 +92,14 @@ coupling::CalibrationOptions settings_of(const CalibrateOptions& options, coupli
 /// the law, keys of its "record", and what is "said".
 Json laws_of_the_bed(const CalibrateOptions& options, const std::vector<MeasuredRun>& runs,
                      std::size_t fitted) {
-  const Json asked{{"fitted", fitted},
+  const Json requested{{"fitted", fitted},
                    {"draws", options.draws},
                    {"memory", options.memory},
                    {"nonlocal", options.nonlocal},
                    {"own_weight", options.amount ? Json(options.own_weight) : Json()},
                    {"I_min", number_or_null(options.I_min)},
                    {"I_max", number_or_null(options.I_max)}};
-  std::vector<std::string> words{asked.dump()};
+  std::vector<std::string> words{requested.dump()};
   for (const MeasuredRun& run : runs)
     words.insert(words.end(), {run.name, (run.folder / "measured" / "maps.h5").string()});
   // Modules may warn before it.
@@ -146,10 +146,10 @@ void refuse_files_of_others(const CalibrateOptions& options) {
 }
 
 /// A law stands in no folder with a manifest: its record says what was asked for.
-void refuse_other_law(const fs::path& record, const std::string& asked) {
+void refuse_other_law(const fs::path& record, const std::string& requested) {
   if (!fs::is_regular_file(record)) return;
-  const std::string before = read_json(record, "drumlin-calibration-1").value("asked", asked);
-  if (before != asked)
+  const std::string before = read_json(record, "drumlin-calibration-1").value("asked", requested);
+  if (before != requested)
     throw InputError(record.string() + ": its law is of other runs or options; --overwrite makes it anew");
 }
 

@@ -57,8 +57,8 @@ coupling::RunEvidence evidence_of(const MeasuredRun& run, coupling::EvidenceSour
 
 coupling::EvidenceSource source_of(const CalibrateOptions& options) {
   const bool needs_maps = options.misalignment || options.memory || options.nonlocal;
-  const auto asked = enumerator<coupling::EvidenceSource>(options.from);  // nothing: auto
-  if (asked == coupling::EvidenceSource::profiles) {
+  const auto requested = enumerator<coupling::EvidenceSource>(options.from);  // nothing: auto
+  if (requested == coupling::EvidenceSource::profiles) {
     if (needs_maps)
       throw InputError("--misalignment, --memory and --nonlocal need tensors over the drum: --from maps");
     return coupling::EvidenceSource::profiles;
@@ -67,10 +67,10 @@ coupling::EvidenceSource source_of(const CalibrateOptions& options) {
   all.insert(all.end(), options.validate.begin(), options.validate.end());
   const auto without =
       std::find_if(all.begin(), all.end(), [](const fs::path& run) { return !fs::exists(maps_of(run)); });
-  if (!asked && !needs_maps && std::any_of(all.begin(), all.end(), is_in_layers))
+  if (!requested && !needs_maps && std::any_of(all.begin(), all.end(), is_in_layers))
     return coupling::EvidenceSource::profiles;
   if (without == all.end()) return coupling::EvidenceSource::maps;
-  if (asked || needs_maps)
+  if (requested || needs_maps)
     throw InputError(maps_of(*without).string() +
                      ": is missing; drumlin measure RUN --parts maps makes it (or use --from profiles)");
   return coupling::EvidenceSource::profiles;

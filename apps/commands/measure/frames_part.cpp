@@ -134,8 +134,8 @@ void write(const MeasureOptions& options, const PartOutput& output, const Frames
 }
 
 void print(const MeasureOptions& options) {
-  const auto line = [](bool asked, const char* name, const char* over) {
-    if (asked) print_out(fmt::format("  {}.csv: profiles over {}\n", name, over));
+  const auto line = [](bool requested, const char* name, const char* over) {
+    if (requested) print_out(fmt::format("  {}.csv: profiles over {}\n", name, over));
   };
   line(!options.radial.empty(), "radial", "the distance from a point");
   line(!options.height.empty(), "height", "the height");

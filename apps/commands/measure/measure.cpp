@@ -278,9 +278,9 @@ int measure_run(const MeasureOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   check_parts(options.parts);
   check_slices(options.slices);
-  ResultsRequest asked = results_of(options, "measure", options.run() / "measured", "measured.json");
-  asked.computed_from = options.run();
-  if (is_done_already(asked)) return static_cast<int>(ExitCode::done);
+  ResultsRequest requested = results_of(options, "measure", options.run() / "measured", "measured.json");
+  requested.computed_from = options.run();
+  if (is_done_already(requested)) return static_cast<int>(ExitCode::done);
   (void)run_in(options.run());  // a lock is left in no folder of somebody else
   const FolderLock run_lock(options.run() / folder_lock_name, "drumlin measure");
   const ResultFolder run_folder = run_in(options.run());
@@ -291,7 +291,7 @@ int measure_run(const MeasureOptions& options) {
   if (files.empty())
     throw InputError(options.run().string() + ": holds no snapshots: there is nothing to measure");
   request.parts = reading_parts(options);
-  Results results(asked);
+  Results results(requested);
   const fs::path& folder = results.begin();
 
   particles::Measurement measured = measured_run(request, files);
@@ -315,11 +315,11 @@ int measure_run(const MeasureOptions& options) {
   const std::vector<std::string> failures = draw_pending_figures(folder, figures_of(request, folder));
   results.publish();
 
-  print_results(request, asked.folder, measured, scalars, options.verbose);
+  print_results(request, requested.folder, measured, scalars, options.verbose);
   print_accuracy(request, statement, scalars);
   print_out(fmt::format("next: drumlin calibrate {} -o rheology.toml, or drumlin report {}\n",
                         options.run().string(), options.run().string()));
-  throw_if_figures_failed(asked.folder / asked.finished, failures);
+  throw_if_figures_failed(requested.folder / requested.finished, failures);
   return static_cast<int>(ExitCode::done);
 }
 

@@ -246,19 +246,19 @@ Document read_toml(const std::filesystem::path& file, const std::vector<std::str
 
 std::string title_with_changes(const std::string& title, const Document& document,
                                const std::vector<std::string>& silent) {
-  std::vector<std::string> told;
+  std::vector<std::string> listed;
   for (const std::string& change : document.changes) {
     const std::string key = key_of_change(change);
     if (key == "title") return title;
     if (std::none_of(silent.begin(), silent.end(),
                      [&](const std::string& part) { return (key + ".").starts_with(part + "."); }))
-      told.push_back(change);
+      listed.push_back(change);
   }
-  if (title.empty() || told.empty()) return title;
-  for (std::size_t named = told.size();; --named) {
-    const std::size_t left = told.size() - named;
+  if (title.empty() || listed.empty()) return title;
+  for (std::size_t named = listed.size();; --named) {
+    const std::size_t left = listed.size() - named;
     std::string list =
-        fmt::format("{}", fmt::join(told.begin(), told.end() - static_cast<std::ptrdiff_t>(left), ", "));
+        fmt::format("{}", fmt::join(listed.begin(), listed.end() - static_cast<std::ptrdiff_t>(left), ", "));
     if (left > 0)
       list += named > 0 ? fmt::format(" and {} more", left) : fmt::format("keys changed: {}", left);
     const std::string whole = title + " [" + list + "]";

@@ -38,7 +38,7 @@ bool take_line(const std::string& line, Manifest& manifest, ManifestEntry& entry
     return manifest.complete = value == "complete", manifest.complete || value == "unfinished";
   if (tells("# accepted = ")) return manifest.accepted.push_back(value), true;
   if (tells("# source = ")) return is_sum(manifest.source = value);
-  if (tells("# asked = ")) return is_sum(manifest.asked = value);
+  if (tells("# asked = ")) return is_sum(manifest.requested = value);
   if (tells("# bytes = ")) {
     const char* const end = value.data() + value.size();
     const auto [rest, fault] = std::from_chars(value.data(), end, entry.sum.bytes);
@@ -56,7 +56,7 @@ std::string summed_text(const Manifest& manifest) {
   std::string text = fmt::format("{}# command = {}\n# state = {}\n", first_line, manifest.command,
                                  manifest.complete ? "complete" : "unfinished");
   if (!manifest.source.empty()) text += "# source = " + manifest.source + "\n";
-  if (!manifest.asked.empty()) text += "# asked = " + manifest.asked + "\n";
+  if (!manifest.requested.empty()) text += "# asked = " + manifest.requested + "\n";
   for (const std::string& reason : manifest.accepted) text += "# accepted = " + reason + "\n";
   for (const auto& [name, entry] : manifest.files)
     fmt::format_to(std::back_inserter(text), "# bytes = {}{}\n{}  {}\n", entry.sum.bytes,

@@ -26,7 +26,7 @@ struct Manifest {
   std::vector<std::string> accepted;           ///< when and why edits by hand were accepted
   std::map<std::string, ManifestEntry> files;  ///< by their paths in the folder
   std::string source = {};  ///< manifest_sum() of the folder that the results were computed from; empty: none
-  std::string asked = {};   ///< checksum of what the command was asked for; empty: not known
+  std::string requested = {};  ///< checksum of what the command was asked for; empty: not known
 };
 
 /// Whether the folder carries our marker.

@@ -170,7 +170,7 @@ MeasuredRun read_measured_run(const fs::path& folder, Unsteady unsteady) {
   return run;
 }
 
-FlowRun read_flow_run(const fs::path& folder, FlowGeometry asked) {
+FlowRun read_flow_run(const fs::path& folder, FlowGeometry requested) {
   require_folder(folder);
   const fs::path file = folder / "flow.json", profile_file = folder / "profiles.csv";
   if (!fs::exists(file))
@@ -181,7 +181,7 @@ FlowRun read_flow_run(const fs::path& folder, FlowGeometry asked) {
   const auto flow = read_record<FlowRecord>(file);
   Problems problems;
   const std::string drum = name_of(Geometry::drum), geometry = flow.geometry.value_or(drum);
-  if (asked == FlowGeometry::drum && geometry != drum)
+  if (requested == FlowGeometry::drum && geometry != drum)
     problems.push_back({file.string(), 0, 0, "geometry", "is " + geometry, "\"drum\""});
   for (const std::string& sentence : limits_missed_by(folder))
     problems.push_back({file.string(), 0, 0, "missed", sentence, "a flow that misses nothing (exit code 0)"});

@@ -11,7 +11,7 @@ double student_quantile_99(int degrees_of_freedom) {
   return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.995);
 }
 
-double quantile_99_of_told_errors(double reduced_chi2, int degrees_of_freedom) {
+double quantile_99_of_stated_errors(double reduced_chi2, int degrees_of_freedom) {
   if (degrees_of_freedom < 1) return normal_quantile_99;
   return std::fmax(normal_quantile_99, student_quantile_99(degrees_of_freedom) * std::sqrt(reduced_chi2));
 }

@@ -16,6 +16,6 @@ double student_quantile_99(int degrees_of_freedom);
 /// normal_quantile_99 and Student's t times sqrt(reduced_chi2). The first is right where the told error is,
 /// the second whatever it is, so that the interval covers 99 % or more either way (the longer of both, as in
 /// Wiksten, Ruecker & Schwarzer, Stat. Med. 35 (2016) 2503). Without degrees of freedom the first.
-double quantile_99_of_told_errors(double reduced_chi2, int degrees_of_freedom);
+double quantile_99_of_stated_errors(double reduced_chi2, int degrees_of_freedom);
 
 }  // namespace drumlin::statistics

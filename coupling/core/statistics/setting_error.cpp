@@ -27,17 +27,17 @@ struct PowerFit {
 
 // value = limit + C x, x = setting^power, read off at `setting`.
 PowerFit fitted(const std::vector<SettingPoint>& points, double setting, double power) {
-  const bool told =
+  const bool stated =
       std::all_of(points.begin(), points.end(), [](const SettingPoint& p) { return p.ci99 > 0; });
   std::vector<double> x, y, variance;
   for (const SettingPoint& p : points) {
     x.push_back(std::pow(p.setting, power));
     y.push_back(p.value);
-    variance.push_back(told ? std::pow(p.ci99 / normal_quantile_99, 2) : 1);
+    variance.push_back(stated ? std::pow(p.ci99 / normal_quantile_99, 2) : 1);
   }
   const auto line = fit_line(x, y, variance);  // three different settings at least
   const double at = std::pow(setting, power);
-  const double factor = interval_factor_99(*line, told ? Variances::told : Variances::relative);
+  const double factor = interval_factor_99(*line, stated ? Variances::stated : Variances::relative);
   return {{line->slope * at, factor * std::sqrt(line->var_slope) * at, power, 0}, line->chi_squared, factor};
 }
 

@@ -57,8 +57,8 @@ double interval_factor_99(const StraightLine& line, Variances variances) {
     case Variances::relative:
       return line.degrees_of_freedom > 0 ? student_quantile_99(line.degrees_of_freedom) * std::sqrt(scatter)
                                          : std::numeric_limits<double>::quiet_NaN();
-    case Variances::told:
-      return quantile_99_of_told_errors(scatter, line.degrees_of_freedom);
+    case Variances::stated:
+      return quantile_99_of_stated_errors(scatter, line.degrees_of_freedom);
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

@@ -27,7 +27,7 @@ struct StraightLine {
 enum class Variances {
   known,     ///< the errors are those, whatever the scatter about the line
   relative,  ///< up to a common factor, which the scatter has to give
-  told,      ///< the errors are those or, where the points scatter more, larger by a common factor
+  stated,    ///< the errors are those or, where the points scatter more, larger by a common factor
 };
 
 /// Half width of the 99 % interval of a coefficient per root of its variance in `line`: normal quantile if

@@ -77,21 +77,21 @@ MeasuredMaps measured_maps(MapReading reading, const MeasurementFrame& place, do
   const MapBatches& batches = *reading.batches;
   const MapBounds bounds = bounds_of(place, surface_z);
   const MapGrid grid = map_grid(batches, surface_z);
-  FindingMap kept{grid, {}};
-  kept.nodes.reserve(grid.nodes());
+  FindingMap selected{grid, {}};
+  selected.nodes.reserve(grid.nodes());
   NodesWithout without;
   for (std::size_t b = 0; b < batches.size() && batches.size() > 1; ++b) without.emplace_back(reading.file);
   each_map_rows(batches, place.container_radius, [&](const MapRows& rows) {
     sink(grid, rows);
-    kept.nodes.insert(kept.nodes.end(), rows.nodes.begin(), rows.nodes.end());
+    selected.nodes.insert(selected.nodes.end(), rows.nodes.begin(), rows.nodes.end());
     for (std::size_t b = 0; b < without.size(); ++b)
       for (const FrictionNode& node : rows.without[b]) without[b].push_back(node);
   });
   MeasuredMaps result;
   if (const auto whole = batches.snapshots().whole; whole.pairs > 0)
     result.displacement_interval = whole.time / whole.pairs;
-  result.balance = momentum_balance(kept, bounds, limits, place.batches);
-  result.friction = bulk_friction(kept, bounds, limits, place.batches);
+  result.balance = momentum_balance(selected, bounds, limits, place.batches);
+  result.friction = bulk_friction(selected, bounds, limits, place.batches);
   result.friction_ci99 = friction_intervals(grid, without, bounds, limits);
   return result;
 }

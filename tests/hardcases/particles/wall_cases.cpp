@@ -43,37 +43,37 @@ struct Pressed {
 };
 
 /// Discs of 0.8 to 1.2 d, loose at first, pressed together with 10 rho0 g d.
-std::vector<HardCheck> pressed(const Pressed& asked) {
-  const double h = 0.02, spacing = 1.25, half = asked.side * spacing / 2, pressure = 10;
+std::vector<HardCheck> pressed(const Pressed& setup) {
+  const double h = 0.02, spacing = 1.25, half = setup.side * spacing / 2, pressure = 10;
   std::vector<Grain> discs;
   Numbers numbers;
-  for (int row = 0; row < asked.side; ++row)
-    for (int k = 0; k < asked.side; ++k) {
+  for (int row = 0; row < setup.side; ++row)
+    for (int k = 0; k < setup.side; ++k) {
       const double x = spacing * (k + 0.5) - half + 0.02 * numbers.next();
       const double z = spacing * (row + 0.5) - half + 0.02 * numbers.next();
       discs.push_back({x, z, 0.8 + 0.4 * numbers.next()});
     }
-  TestScene trial = plain(discs, asked.mu).between(box_walls(half)).lasting(asked.steps * h, h);
+  TestScene trial = plain(discs, setup.mu).between(box_walls(half)).lasting(setup.steps * h, h);
   const struct {
     const char* name;
     std::array<double, 2> inwards;
   } box[] = {{"top", {0, -1}}, {"left", {1, 0}}, {"right", {-1, 0}}, {"floor", {0, 1}}};
-  for (const auto& wall : std::span(box).first(asked.walls))
-    trial.moving(wall.name, pushed(wall.inwards, pressure * 2 * half, asked.wall_mass));
+  for (const auto& wall : std::span(box).first(setup.walls))
+    trial.moving(wall.name, pushed(wall.inwards, pressure * 2 * half, setup.wall_mass));
   TestRun run(trial);
   double sum = 0, latest = 0;
   int finite = 0;
-  for (int step = 0; step < asked.steps; ++step) {
+  for (int step = 0; step < setup.steps; ++step) {
     const double mean = run.step().overlap.mean;
     sum += mean;
-    if (2 * step > asked.steps) latest = larger(latest, mean);
+    if (2 * step > setup.steps) latest = larger(latest, mean);
     finite += std::isfinite(run.kinetic());
   }
   const std::string why = "what a step leaves must not add up over the steps";
   return {
-      at_most("mean overlap of loaded contacts, over all steps", 1e-4, sum / asked.steps, why),
+      at_most("mean overlap of loaded contacts, over all steps", 1e-4, sum / setup.steps, why),
       at_most("the same, worst step of the second half", 1e-4, latest, why + "; the walls' impact is over"),
-      at_most("steps with NaN", 0, asked.steps - finite, "none")};
+      at_most("steps with NaN", 0, setup.steps - finite, "none")};
 }
 
 // Walls that are moved.
@@ -92,36 +92,36 @@ struct Shaken {
 constexpr double half_width = 8, half_height = 12.4, shaking_rate = 0.5, shaking_step = 0.02;
 
 /// Displacement of the box at a time; the angle clockwise.
-Pose pose_of(const Shaken& asked, double time) {
+Pose pose_of(const Shaken& setup, double time) {
   const double rate = 2 * std::numbers::pi * shaking_rate;
-  const double reach = asked.move / (rate * shaking_step), swing = std::sin(rate * time);
+  const double reach = setup.move / (rate * shaking_step), swing = std::sin(rate * time);
   const double corner = std::hypot(half_width, half_height);
-  switch (asked.way) {
+  switch (setup.way) {
     case Way::shaken:
       return {0, 0, reach * swing};
     case Way::shaken_askew:
       return {0, 0.8 * reach * swing, 0.6 * reach * swing};
     case Way::turned:
-      return {asked.move / (corner * shaking_step) * time, 0, 0};
+      return {setup.move / (corner * shaking_step) * time, 0, 0};
     case Way::rocked:
       return {reach / corner * swing, 0, 0};
   }
   return {};
 }
 
-WallMotion motion_of(const Shaken& asked) {
+WallMotion motion_of(const Shaken& setup) {
   const double hertz = shaking_rate / time_s, quarter = 1 / (4 * shaking_rate);
-  const Pose most = pose_of(asked, quarter);  // of what swings
-  if (asked.way == Way::turned)
+  const Pose most = pose_of(setup, quarter);  // of what swings
+  if (setup.way == Way::turned)
     return {"box", Rotation{most.angle / quarter / time_s * 60 / (2 * std::numbers::pi), {0, 0}}};
-  if (asked.way == Way::rocked)
+  if (setup.way == Way::rocked)
     return {"box", Rocking{most.angle * 180 / std::numbers::pi, hertz, 0, {0, 0}}};
   return {"box", Oscillation{{most.x, most.z}, hertz, 0}};
 }
 
 /// A box, or a floor and a roof in a periodic domain, with grains of 0.9 to 1.1 d. The solver has thirty
 /// sweeps.
-TestScene filled(const Shaken& asked) {
+TestScene filled(const Shaken& setup) {
   std::vector<Grain> discs;
   Numbers numbers;
   double x = -half_width, z = -half_height, row = 0;
@@ -130,15 +130,15 @@ TestScene filled(const Shaken& asked) {
     discs.push_back({x + 0.525 * diameter, z + 0.525 * diameter, diameter});
     x += 1.05 * diameter, row = std::max(row, 1.05 * diameter);
   };
-  for (int k = 0; k < asked.grains; ++k) add(0.9 + 0.2 * numbers.next());
-  if (asked.odd > 0) add(asked.odd);
+  for (int k = 0; k < setup.grains; ++k) add(0.9 + 0.2 * numbers.next());
+  if (setup.odd > 0) add(setup.odd);
   TestScene trial = plain(discs, 0.4)
                         .between({segment("box", {-half_width, -half_height}, {half_width, -half_height}),
                                   segment("box", {-half_width, half_height}, {half_width, half_height})})
                         .with(Gravity{}, Restitution{0.46, 0.46})
-                        .lasting(asked.steps * shaking_step, shaking_step);
-  trial.stages[0].motions = {motion_of(asked)};
-  if (asked.periodic) {
+                        .lasting(setup.steps * shaking_step, shaking_step);
+  trial.stages[0].motions = {motion_of(setup)};
+  if (setup.periodic) {
     trial.periodic_x = PeriodicX{-half_width, half_width};
   } else {
     trial.walls.push_back(segment("box", {-half_width, -half_height}, {-half_width, half_height}));
@@ -149,35 +149,35 @@ TestScene filled(const Shaken& asked) {
 }
 
 /// In a run whose unit of length is the mean diameter of its grains.
-int outside(const TestRun& run, const Shaken& asked) {
+int outside(const TestRun& run, const Shaken& setup) {
   const double d = run.scales().length_m * 1e3;
-  const Pose back = inverse(pose_of(asked, run.time() * std::sqrt(d)));
+  const Pose back = inverse(pose_of(setup, run.time() * std::sqrt(d)));
   const Bodies& b = run.bodies();
   int count = 0;
   for (std::size_t k = 0; k < b.count(); ++k) {
     const Point at = moved(back, {b.x[k] * d, b.z[k] * d});
-    count += !(std::abs(at.z) < half_height && (asked.periodic || std::abs(at.x) < half_width));
+    count += !(std::abs(at.z) < half_height && (setup.periodic || std::abs(at.x) < half_width));
   }
   return count;
 }
 
-std::vector<HardCheck> shaken(const Shaken& asked) {
-  TestRun run(filled(asked));
+std::vector<HardCheck> shaken(const Shaken& setup) {
+  TestRun run(filled(setup));
   int out = 0;
-  const Watch watch = run_watched(run, [&] { out = std::max(out, outside(run, asked)); });
+  const Watch watch = run_watched(run, [&] { out = std::max(out, outside(run, setup)); });
   return {at_most("grains outside, worst step", 0, out, "walls hold what is in them"),
           at_most("grains reported lost", 0, watch.steps_lost, "none"),
           at_most("steps with NaN", 0, watch.steps_not_finite, "none")};
 }
 
-std::vector<HardCheck> too_far(const Shaken& asked) {
-  TestScene still = filled(asked);  // a start would refuse the motion
+std::vector<HardCheck> too_far(const Shaken& setup) {
+  TestScene still = filled(setup);  // a start would refuse the motion
   still.stages[0].motions.clear();
-  TestRun run(filled(asked), Simulation(still).state());
-  double told = 0;
-  while (!run.finished() && told == 0)
-    if (const auto lost = run.step().lost) told = lost->how == LostGrain::How::pushed_too_far ? 1 : -1;
-  return {equals("says that a wall moves too far (1), another loss (-1)", 1, told, 0,
+  TestRun run(filled(setup), Simulation(still).state());
+  double found = 0;
+  while (!run.finished() && found == 0)
+    if (const auto lost = run.step().lost) found = lost->how == LostGrain::How::pushed_too_far ? 1 : -1;
+  return {equals("says that a wall moves too far (1), another loss (-1)", 1, found, 0,
                  "a wall that moves by more than a radius can pass a grain unseen")};
 }
 
@@ -224,11 +224,11 @@ std::vector<HardCheck> column_default(int discs, int steps) {
 }  // namespace
 
 std::vector<HardCase> wall_cases() {
-  const auto press = [](const std::string& name, const std::string& what, bool fast, const Pressed& asked) {
-    return HardCase{name, what, fast, [asked] { return pressed(asked); }};
+  const auto press = [](const std::string& name, const std::string& what, bool fast, const Pressed& setup) {
+    return HardCase{name, what, fast, [setup] { return pressed(setup); }};
   };
-  const auto shake = [](const std::string& name, const std::string& what, bool fast, const Shaken& asked) {
-    return HardCase{name, what, fast, [asked] { return shaken(asked); }};
+  const auto shake = [](const std::string& name, const std::string& what, bool fast, const Shaken& setup) {
+    return HardCase{name, what, fast, [setup] { return shaken(setup); }};
   };
   return {
       press("pressed-by-one", "a force presses one wall of a box onto 64 discs: no overlap builds up", true,

@@ -1,4 +1,4 @@
-#include "apps/process/asked.hpp"
+#include "apps/process/request_sum.hpp"
 
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -11,8 +11,8 @@ namespace drumlin::apps {
 
 namespace fs = std::filesystem;
 
-std::string asked_sum(const nlohmann::ordered_json& asked) {
-  return text_sum(asked.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+std::string request_sum(const nlohmann::ordered_json& requested) {
+  return text_sum(requested.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 std::string input_sum(const fs::path& input) {
@@ -32,10 +32,10 @@ std::string input_sum(const fs::path& input) {
 
 std::string measured_run_sum(const fs::path& run) { return input_sum(run) + input_sum(run / "measured"); }
 
-void refuse_other(const fs::path& folder, const std::string& asked) {
+void refuse_other(const fs::path& folder, const std::string& requested) {
   if (!has_manifest(folder)) return;
-  const std::string before = read_manifest(folder).asked;
-  if (!before.empty() && before != asked)
+  const std::string before = read_manifest(folder).requested;
+  if (!before.empty() && before != requested)
     throw InputError(folder.string() +
                      ": holds results of other inputs or options; --overwrite makes them anew");
 }
