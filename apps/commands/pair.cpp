@@ -9,7 +9,7 @@
 #include "apps/output/figures.hpp"
 #include "apps/output/program.hpp"
 #include "apps/output/results.hpp"
-#include "apps/process/asked.hpp"
+#include "apps/process/request_sum.hpp"
 #include "apps/process/interruption.hpp"
 #include "apps/process/program_files.hpp"
 #include "apps/process/standard_streams.hpp"

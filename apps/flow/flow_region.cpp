@@ -10,7 +10,7 @@
 #include "apps/json/json_file.hpp"
 #include "apps/output/figures.hpp"
 #include "apps/output/output_folder.hpp"
-#include "apps/process/asked.hpp"
+#include "apps/process/request_sum.hpp"
 #include "apps/process/interruption.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "continuum/fem/scene_options.hpp"
@@ -226,7 +226,7 @@ Json region_json(const RegionRequest& asked, const RegionRun& run, double cpu_se
   content["accuracy"] = accuracy;
   content["settings"] = {
       {"title", asked.scene.title}, {"law", law_json(asked.law)}, {"scales", to_json(asked.scales)}};
-  content["provenance"] = to_json(provenance());
+  content["provenance"] = provenance();
   return content;
 }
 

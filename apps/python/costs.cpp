@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "apps/json/described.hpp"
+#include "coupling/core/documents/described.hpp"
 #include "apps/json/json_file.hpp"
 #include "apps/output/output_folder.hpp"
 #include "apps/process/progress.hpp"
@@ -291,7 +291,7 @@ void add_costs(py::module_& module) {
       .def("price", &ParticleWork::price);
   module.def("is_flow_scene", &is_flow_scene);
   module.def("flow_facts", &flow_facts);
-  module.def("provenance", [] { return python_of(apps::to_json(provenance())); });
+  module.def("provenance", [] { return python_of(Json(provenance())); });
   add_outputs(module);
 }
 

@@ -11,7 +11,7 @@ namespace drumlin::continuum {
 namespace {
 
 // What a shape asks of its domain.
-struct Outline {
+struct DomainOutline {
   double z = 0;
   double half_width(const ChordDomain& d) const {
     const double above = z - d.axis_offset;
@@ -48,13 +48,13 @@ struct Outline {
 };
 
 double half_width(const SurfaceShape& shape, double z) {
-  return std::visit([z](const auto& d) { return Outline{z}.half_width(d); }, shape.domain);
+  return std::visit([z](const auto& d) { return DomainOutline{z}.half_width(d); }, shape.domain);
 }
 double half_width_slope(const SurfaceShape& shape, double z) {
-  return std::visit([z](const auto& d) { return Outline{z}.half_width_slope(d); }, shape.domain);
+  return std::visit([z](const auto& d) { return DomainOutline{z}.half_width_slope(d); }, shape.domain);
 }
 double half_area(const SurfaceShape& shape, double z) {
-  return std::visit([z](const auto& d) { return Outline{z}.half_area(d); }, shape.domain);
+  return std::visit([z](const auto& d) { return DomainOutline{z}.half_area(d); }, shape.domain);
 }
 
 constexpr int samples = 400;  // over s; the shape has some ten bends
@@ -158,7 +158,7 @@ void restrain(SurfaceShape& shape, double half_length) {
 }
 
 Vec2 displaced(const SurfaceShape& shape, Vec2 point) {
-  const double reach = 0.8 * std::visit([](const auto& d) { return Outline{}.depth(d); }, shape.domain);
+  const double reach = 0.8 * std::visit([](const auto& d) { return DomainOutline{}.depth(d); }, shape.domain);
   const double share = 1 + point.z / reach;
   if (share <= 0) return point;
   const double s = across(shape, point);

@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
   Json result{
       {"format", "drumlin-detection-cost-1"}, {"command", "benchmark_detection RESULT"}, {"reduced", false}};
   result["load_before"] = load_average();
-  result["provenance"] = apps::to_json(provenance());
+  result["provenance"] = provenance();
   for (const auto& [name, make] : scenes) {
     result["scenes"][name] = prices(make);
     result["load_after"] = load_average();

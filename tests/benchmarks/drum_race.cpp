@@ -228,7 +228,7 @@ void race(const std::vector<std::string>& words, const OtherEngine& other) {
   for (std::size_t k = 1; k < runners.size(); ++k)
     result["speed_against_" + other.name][runners[k].name] = speed_of(runners[k], runners[0]);
   result["load_before"] = load, result["load_after"] = load_average();
-  result["provenance"] = apps::to_json(provenance());
+  result["provenance"] = provenance();
   fmt::print("{}\n", result.dump(2));
   apps::write_json(words[2], result);
 }

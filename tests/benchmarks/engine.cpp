@@ -241,7 +241,7 @@ int main(int argc, char** argv) {
     const Scene scene = read_scene(argv[1]);
     result["scene"] = scene.title;
     result["load_before"] = load_average();
-    result["provenance"] = apps::to_json(provenance());
+    result["provenance"] = provenance();
     measure(result, scene, argv[3], [&](const char* what) {
       result["load_after"] = load_average();
       apps::write_json(argv[2], result);

@@ -156,7 +156,7 @@ Json drum_centre() {
 int measure(const std::string& file) {
   Json result{{"format", "drumlin-flow-verification-1"},
               {"command", "benchmark_flow_verification RESULT"},
-              {"provenance", apps::to_json(provenance())}};
+              {"provenance", provenance()}};
   result["manufactured_newtonian"] =
       manufactured({NewtonianLaw{1}, testing_manufactured::of_friction_law().regularisation});
   result["manufactured_friction"] = manufactured(testing_manufactured::of_friction_law());

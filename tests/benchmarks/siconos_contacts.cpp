@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
                                             {"residual", solved.residual.rms},
                                             {"residual_max", solved.residual.max},
                                             {"processor_seconds", solved.processor_seconds},
-                                            {"provenance", apps::to_json(provenance())}};
+                                            {"provenance", provenance()}};
     fmt::print("{}\n", printed.dump(2));
     return static_cast<int>(ExitCode::done);
   } catch (const InputError& error) {

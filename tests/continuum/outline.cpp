@@ -10,6 +10,7 @@
 
 namespace drumlin {
 using namespace continuum;
+namespace outline_tests {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -147,4 +148,5 @@ TEST(Outline, TellsWhereItCrossesItself) {
 }
 
 }  // namespace
+}  // namespace outline_tests
 }  // namespace drumlin

@@ -12,6 +12,7 @@
 
 namespace drumlin {
 using namespace continuum;
+namespace region_mesh_tests {
 namespace {
 
 using Size = std::function<double(Vec2)>;
@@ -116,4 +117,5 @@ TEST(RegionMesh, RefusesAnOutlineThatCrossesItselfOrRunsClockwise) {
 }
 
 }  // namespace
+}  // namespace region_mesh_tests
 }  // namespace drumlin

@@ -13,6 +13,7 @@
 
 namespace drumlin {
 using namespace continuum;
+namespace touch_down_tests {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -221,4 +222,5 @@ TEST(TouchDown, RefusesWhatBreaksOrMerges) {
 }
 
 }  // namespace
+}  // namespace touch_down_tests
 }  // namespace drumlin

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "apps/output/results.hpp"
-#include "apps/process/asked.hpp"
+#include "apps/process/request_sum.hpp"
 #include "apps/process/progress.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/basics/provenance.hpp"
