@@ -1,22 +1,14 @@
-// drumlin pair: both sides of one particle scene, and their report. What is done in which order is
-// drumlin/pair/command.py of the Python package, which has this program do it, command by command.
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
+// drumlin pair: both sides of one particle scene, and their report, which drumlin/pair/command.py of the
+// Python package makes.
 #include <nlohmann/json.hpp>
 
 #include "apps/command_line/command.hpp"
 #include "apps/output/figures.hpp"
-#include "apps/output/program.hpp"
 #include "apps/output/results.hpp"
-#include "apps/process/request_sum.hpp"
-#include "apps/process/interruption.hpp"
 #include "apps/process/program_files.hpp"
-#include "apps/process/standard_streams.hpp"
+#include "apps/process/request_sum.hpp"
 #include "coupling/core/basics/errors.hpp"
-#include "coupling/core/files/text_file.hpp"
 #include "coupling/core/law/rheology_file.hpp"
-#include "coupling/core/machine/child_process.hpp"
 #include "particles/io/run_folder.hpp"
 #include "particles/scene/scene_file.hpp"
 
@@ -57,37 +49,20 @@ struct PairOptions {
   }
 };
 
-/// Starts a command of this program, which says by itself what goes wrong.
-void do_command(const std::vector<std::string>& words) {
-  flush_out();
-  ProcessRequest request{.program = program_beside("drumlin"), .words = words};
-  request.caught = interruption;
-  const ProcessEnd end = run_process(request);
-  stop_if_interrupted();
-  const std::string said =
-      fmt::format("drumlin {}: ended with exit code {}", fmt::join(words, " "), end.shell_code());
-  switch (static_cast<ExitCode>(end.shell_code())) {
-    case ExitCode::done:
-      return;
-    case ExitCode::wrong_input:
-      throw InputError(said);
-    case ExitCode::not_converged:
-      throw NotConvergedError(said);
-    default:
-      throw IoError(said);
-  }
-}
-
-Json given_of(const PairOptions& options, const std::string& scene) {
+Json given_of(const PairOptions& options, const std::string& scene, const ResultsRequest& request) {
   std::vector<std::string> runs;
   for (const fs::path& run : options.runs) {
     (void)particles::read_run_folder(run);
     runs.push_back(run.string());
   }
   return {{"output", options.output.string()},
-          {"existing", options.existing == ExistingOutput::overwrite ? "--overwrite" : "--resume"},
+          {"existing", options.existing == ExistingOutput::overwrite ? "--overwrite"
+                       : options.existing == ExistingOutput::resume  ? "--resume"
+                                                                     : ""},
           {"scene", scene},
           {"nu", read_rheology(options.law).nu},
+          {"law", options.law.string()},
+          {"sum", request.asked},
           {"file", options.scene.string()},
           {"runs", runs},
           {"seeds", options.seeds},
@@ -101,29 +76,10 @@ Json given_of(const PairOptions& options, const std::string& scene) {
 
 int pair(const PairOptions& options) {
   const std::string scene = particles::scene_text(particles::read_scene(options.scene, options.overrides));
-  const Json given = given_of(options, scene);
   const ResultsRequest request =
       results_of(options, "pair", options.output, "flow.toml", Json::array({scene}));
   if (is_done_already(request)) return static_cast<int>(ExitCode::done);
-  std::optional<GrowingOutput> output;
-  std::string said;
-  work_for_script("../pair/command.py", [&](const Json& wish) -> Json {
-    if (wish.empty()) return given;
-    if (wish.contains("said")) said = wish["said"].get<std::string>();
-    if (wish.contains("words")) do_command(wish["words"].get<std::vector<std::string>>());
-    if (wish.contains("begin")) {
-      output.emplace(request, std::vector<std::string>{"scene.toml", "rheology.toml", "flow.toml"});
-      output->forget("*");
-      replace_file(options.output / "scene.toml", scene);
-      replace_file(options.output / "rheology.toml", file_text(options.law));
-      for (const char* name : {"scene.toml", "rheology.toml"}) output->list(name);
-      output->save();
-    }
-    return Json::object();
-  });
-  output.value().finish();
-  print_out(said);
-  return static_cast<int>(ExitCode::done);
+  return end_of_command("../pair/command.py", {given_of(options, scene, request).dump()});
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 #include "apps/json/json_file.hpp"
 #include "apps/output/figures.hpp"
 #include "apps/output/output_folder.hpp"
-#include "apps/process/request_sum.hpp"
 #include "apps/process/interruption.hpp"
+#include "apps/process/request_sum.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "continuum/fem/scene_options.hpp"
 #include "continuum/io/region_state_file.hpp"
@@ -20,9 +20,9 @@
 #include "coupling/core/basics/provenance.hpp"
 #include "coupling/core/files/result_folder.hpp"
 #include "coupling/core/files/text_file.hpp"
-#include "coupling/core/files/unfinished_file.hpp"
 #include "coupling/core/hdf5/frames_file.hpp"
 #include "coupling/core/law/rheology_file.hpp"
+#include "coupling/core/results/run_records.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -213,8 +213,9 @@ Json region_json(const RegionRequest& asked, const RegionRun& run, double cpu_se
   const continuum::RegionState& state = run.last().state;
   const continuum::RegionTotals& totals = state.totals;
   const Frame& last = run.frames().back();
-  Json content{
-      {"format", flow_format}, {"reduced", asked.scene.reduced || asked.law.reduced}, {"geometry", "region"}};
+  Json content{{"format", FlowRecord::format},
+               {"reduced", asked.scene.reduced || asked.law.reduced},
+               {"geometry", "region"}};
   for (const auto& [name, value] : last.scalars) content[name] = value;
   content["nu"] = asked.law.nu;
   content["steps"] = state.steps;
@@ -225,7 +226,7 @@ Json region_json(const RegionRequest& asked, const RegionRun& run, double cpu_se
   content["cpu_seconds"] = cpu_seconds;
   content["accuracy"] = accuracy;
   content["settings"] = {
-      {"title", asked.scene.title}, {"law", law_json(asked.law)}, {"scales", to_json(asked.scales)}};
+      {"title", asked.scene.title}, {"law", law_json(asked.law)}, {"scales", asked.scales}};
   content["provenance"] = provenance();
   return content;
 }
@@ -269,7 +270,7 @@ int solve_region_scene(const FlowOptions& options, const continuum::FemRuntime& 
   }
   GrowingOutput output({folder, options.existing, "flow", {options.scene, options.rheology}, {}, asked.sum},
                        {"flow_scene.toml", "rheology.toml", series_file, "frames/*.h5", "frames.h5",
-                        "flow.vtu", result_file, "flow.json.part", "frames.png", "series.png"});
+                        "flow.vtu", result_file, "frames.png", "series.png"});
   RegionRun run(asked, 1);
   if (options.existing == ExistingOutput::resume) take_over_frames(folder, asked, run);
   begin_region_folder(options, asked, output);
@@ -304,8 +305,6 @@ int solve_region_scene(const FlowOptions& options, const continuum::FemRuntime& 
   write_frames(folder / "frames.h5", frames_of(asked, run));
   run.field().write_vtu(folder / "flow.vtu", asked.scales);
   const Json content = region_json(asked, run, cpu_seconds, accuracy);
-  const UnfinishedFile unfinished(folder / "flow.json.part");
-  write_json(unfinished.path(), content);
   if (std::get<continuum::FlowRegion>(scene.geometry).output.figures)
     draw_figures("region_figures.py", {folder.string()});
   write_json(folder / result_file, content);

@@ -5,12 +5,12 @@
 
 #include <memory>
 
-#include "coupling/core/documents/described.hpp"
 #include "apps/json/json_file.hpp"
 #include "apps/output/output_folder.hpp"
 #include "apps/process/progress.hpp"
 #include "apps/python/bindings.hpp"
 #include "coupling/core/basics/errors.hpp"
+#include "coupling/core/documents/described.hpp"
 #include "coupling/core/documents/document.hpp"
 #include "coupling/core/documents/toml_text.hpp"
 #include "coupling/core/files/text_file.hpp"
@@ -239,22 +239,27 @@ py::object flow_facts(const std::string& scene_file, const Texts& changes, const
 }
 
 apps::OutputRequest request_of(const std::string& folder, const std::string& command, bool resume,
-                               bool overwrite, const Texts& inputs) {
+                               bool overwrite, const Texts& inputs, const std::string& sum = {}) {
   return {folder,
           resume      ? apps::ExistingOutput::resume
           : overwrite ? apps::ExistingOutput::overwrite
                       : apps::ExistingOutput::refuse,
           command,
-          {inputs.begin(), inputs.end()}};
+          {inputs.begin(), inputs.end()},
+          {},
+          sum};
 }
 
 void add_outputs(py::module_& module) {
   using apps::GrowingOutput, apps::StagedOutput;
   py::class_<GrowingOutput>(module, "GrowingOutput")
       .def(py::init([](const std::string& folder, const std::string& command, bool resume, bool overwrite,
-                       const Texts& inputs, const Texts& known) {
-        return std::make_unique<GrowingOutput>(request_of(folder, command, resume, overwrite, inputs), known);
-      }))
+                       const Texts& inputs, const Texts& known, const std::string& sum) {
+             return std::make_unique<GrowingOutput>(
+                 request_of(folder, command, resume, overwrite, inputs, sum), known);
+           }),
+           py::arg("folder"), py::arg("command"), py::arg("resume"), py::arg("overwrite"), py::arg("inputs"),
+           py::arg("known"), py::arg("sum") = "")
       .def("__contains__", [](const GrowingOutput& self,
                               const std::string& name) { return self.manifest().files.contains(name); })
       .def("list", &GrowingOutput::list)

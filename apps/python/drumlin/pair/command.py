@@ -1,21 +1,24 @@
-"""What `drumlin pair` starts once it has read the scene and the law: makes both sides and their report. A refusal is printed and ends with exit code 2. Each
-line of JSON that it prints is answered by a line (apps/commands/pair.cpp): {}: what was asked, {"begin": true}: the folder is claimed, {"words": [...]}:
-that command has been done, {"said": ...}: what is said at the end.
+"""`drumlin pair` once it has read the scene and the law: makes both sides and their report.
+
+usage: command.py GIVEN
+  GIVEN             JSON:
   output, existing  folder of the results; --resume or --overwrite, for the commands below
   scene, nu         text of the particle scene with all defaults; volume fraction of the law (OUTPUT/rheology.toml)
+  law, sum          the law's file; of all that was requested
   file, runs, seeds, threads, at, case, limits, scene_only, accept_unsteady: as the options say
 """
 
 import json
 import math
 import pathlib
+import subprocess
 import sys
 import tomllib
 
 import h5py
 import numpy as np
 
-from drumlin.errors import DrumlinError, InputError
+from drumlin.commands import program
 from drumlin.figures import whole_file
 from drumlin.pair import layers, scene as scenes
 from drumlin.study.runs import refused
@@ -23,9 +26,34 @@ from drumlin.study.runs import refused
 UNLIKE = ("title", "seed", "reduced", "output", "solver")  # may differ between a scene and a run of it
 
 
-def tell(**words):
-    print(json.dumps(words), flush=True)
-    return json.loads(sys.stdin.readline())
+class Work:
+    """The folder of the results, and the commands that fill it."""
+
+    def __init__(self, given):
+        self.given, self.output = given, None
+
+    def __call__(self, begin=False, words=()):
+        """Claims the folder; does a command of drumlin, which says by itself what goes wrong."""
+        given = self.given
+        if begin:
+            from drumlin import _drumlin  # pylint: disable=import-outside-toplevel  # tests need none
+            folder = pathlib.Path(given["output"])
+            self.output = _drumlin.GrowingOutput(given["output"], "pair", given["existing"] == "--resume", given["existing"] == "--overwrite",
+                                                 [given["file"], given["law"]], ["scene.toml", "rheology.toml", "flow.toml"], given["sum"])
+            self.output.forget("*")
+            whole_file.write_text(folder / "scene.toml", given["scene"])
+            whole_file.write_text(folder / "rheology.toml", pathlib.Path(given["law"]).read_text(encoding="utf-8"))
+            for name in ("scene.toml", "rheology.toml"):
+                self.output.list(name)
+            self.output.save()
+        if words:
+            code = subprocess.run([program(), *words], stdin=subprocess.DEVNULL, check=False).returncode
+            if code:
+                print(f"drumlin {' '.join(words)}: ended with exit code {code}", file=sys.stderr)
+                sys.exit(code if code > 0 else 128 - code)
+
+
+tell = None  # a Work
 
 
 def toml_text(content):
@@ -88,7 +116,7 @@ def runs_of(given, output):
     first, folders = tomllib.loads(given["scene"]).get("seed", 0), []
     for seed in range(first, first + given["seeds"]):
         folders.append(str(output / f"run-{seed}"))
-        tell(words=["run", str(output / "scene.toml"), "--set", f"seed={seed}", "--threads", str(given["threads"]), "-o", folders[-1], given["existing"]])
+        tell(words=["run", str(output / "scene.toml"), "--set", f"seed={seed}", "--threads", str(given["threads"]), "-o", folders[-1], given["existing"] or "--resume"])
     return folders
 
 
@@ -136,7 +164,7 @@ def pair_of_region(given, scene, output):
     d_mm, grid = 1e3 * runs[0].scales["length_m"], flow["output"]
     tell(words=["measure", *(str(run.folder) for run in runs), "--at", ",".join(f"{time:.12g}" for time in frames_s), "--origin", f"{origin:.12g}",
                 *(word for axis in "xz" for word in (f"--{axis}", ",".join(f"{end / d_mm:.12g}" for end in grid[f"{axis}_mm"]))),
-                "-o", str(output / "particles"), given["existing"]])
+                "-o", str(output / "particles"), given["existing"] or "--resume"])
     grains.surface = surface_mm(output / "particles" / "frames.h5", runs[0].scales["length_m"])
     flow, _ = flow_scene(grains=grains, sizes=sizes, ends=ends, frames_s=frames_s)
     write_flow(flow | {"output": grid}, output)
@@ -161,7 +189,7 @@ def pair_of_layers(given, scene, output):
         if not (run.folder / "measured").exists():
             tell(words=["measure", str(run.folder), "--parts", "none"])
     solve(given, output)
-    tell(words=["compare", str(runs[0].folder), str(output / "flow"), "-o", str(output / "report"), given["existing"],
+    tell(words=["compare", str(runs[0].folder), str(output / "flow"), "-o", str(output / "report"), given["existing"] or "--resume",
                 *(["--floor", str(runs[1].folder)] if len(runs) > 1 else []), *(["--accept-unsteady"] if given["accept_unsteady"] else [])])
 
 
@@ -175,7 +203,7 @@ def write_flow(flow, output):
 
 
 def solve(given, output):
-    tell(words=["flow", str(output / "flow.toml"), "--rheology", str(output / "rheology.toml"), "-o", str(output / "flow"), given["existing"]])
+    tell(words=["flow", str(output / "flow.toml"), "--rheology", str(output / "rheology.toml"), "-o", str(output / "flow"), given["existing"] or "--resume"])
 
 
 def compare(given, output):
@@ -183,24 +211,21 @@ def compare(given, output):
 
     made = json.loads((output / "flow" / "flow.json").read_text(encoding="utf-8"))
     comparison.compare(output / "particles" / "frames.h5", output / "flow" / "frames.h5", output / "report", given["case"], given["limits"],
-                       output / "flow.toml", {"seconds": made.get("cpu_seconds", math.nan)})
+                       output / "flow.toml", {"seconds": made.get("cpu_seconds", math.nan), "energy": made.get("checks", {}).get("energy", math.nan)})
 
 
-def main():
-    for stream in (sys.stdin, sys.stdout):
-        stream.reconfigure(encoding="utf-8", errors="surrogateescape")
-    given = tell()
+def main(words):
+    global tell  # pylint: disable=global-statement
+    given = json.loads(words)
     scene, output = tomllib.loads(given["scene"]), pathlib.Path(given["output"])
-    try:
-        (pair_of_layers if "periodic_x" in scene else pair_of_region)(given, scene, output)
-    except InputError as error:
-        print(error)
-        sys.exit(2)
-    except DrumlinError as error:
-        print(error)
-        sys.exit(74)
-    tell(said=f"{output}: flow.toml\n" if given["scene_only"] else "" if "periodic_x" in scene else f"report: {(output / 'report' / 'index.html').absolute()}\n")
+    tell = Work(given)
+    (pair_of_layers if "periodic_x" in scene else pair_of_region)(given, scene, output)
+    tell.output.finish()
+    if given["scene_only"]:
+        print(f"{output}: flow.toml")
+    elif "periodic_x" not in scene:
+        print(f"report: {(output / 'report' / 'index.html').absolute()}")
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:])
