@@ -4,6 +4,7 @@
 
 #include "apps/command_line/command.hpp"
 #include "apps/output/figures.hpp"
+#include "apps/output/program.hpp"
 #include "apps/output/results.hpp"
 #include "apps/process/program_files.hpp"
 #include "apps/process/request_sum.hpp"
@@ -62,7 +63,7 @@ Json given_of(const PairOptions& options, const std::string& scene, const Result
           {"scene", scene},
           {"nu", read_rheology(options.law).nu},
           {"law", options.law.string()},
-          {"sum", request.asked},
+          {"sum", request.requested},
           {"file", options.scene.string()},
           {"runs", runs},
           {"seeds", options.seeds},
