@@ -171,7 +171,7 @@ def pair_of_region(given, scene, output):
     if given["scene_only"]:
         return
     solve(given, output)
-    compare(given, output)
+    compare(given, output, runs)
 
 
 def pair_of_layers(given, scene, output):
@@ -206,12 +206,13 @@ def solve(given, output):
     tell(words=["flow", str(output / "flow.toml"), "--rheology", str(output / "rheology.toml"), "-o", str(output / "flow"), given["existing"] or "--resume"])
 
 
-def compare(given, output):
+def compare(given, output, runs):
     from drumlin.pair import comparison  # pylint: disable=import-outside-toplevel  # with its figures it takes a second
 
     made = json.loads((output / "flow" / "flow.json").read_text(encoding="utf-8"))
     comparison.compare(output / "particles" / "frames.h5", output / "flow" / "frames.h5", output / "report", given["case"], given["limits"],
-                       output / "flow.toml", {"seconds": made.get("cpu_seconds", math.nan), "energy": made.get("checks", {}).get("energy", math.nan)})
+                       output / "flow.toml", {"seconds": made.get("cpu_seconds", math.nan), "energy": made.get("checks", {}).get("energy", math.nan)},
+                       [run.folder for run in runs])
 
 
 def main(words):
