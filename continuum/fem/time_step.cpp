@@ -2,28 +2,24 @@
 
 #include <algorithm>
 
+#include "continuum/fem/detail/picard.hpp"
+
 namespace drumlin::continuum::fem {
 namespace {
 
 // Where nothing moves yet, Newton's method knows no direction of D: a fluid first, then the law at smaller
 // and smaller eps.
 bool advance_carefully(Newton& newton, const FlowSolverOptions& options, Phase phase, SolvedLevel& level) {
-  const double last = phase.setting.regularisation.shear_rate, tolerance = phase.tolerance;
+  const double tolerance = phase.tolerance;
   const StressLaw law = phase.setting.law;
   phase.name = "start";
   phase.tolerance = options.phase_tolerance;
   phase.setting.law = NewtonianLaw{1};
-  phase.setting.regularisation.shear_rate = std::max(last, options.start_shear_rate);
+  phase.setting.regularisation.shear_rate =
+      std::max(phase.setting.regularisation.shear_rate, options.start_shear_rate);
   if (!run(newton, phase, level)) return false;
   phase.setting.law = law;
-  for (double eps = phase.setting.regularisation.shear_rate; run(newton, phase, level);) {
-    if (eps == last) return true;
-    eps *= 0.1;
-    if (eps < 1.5 * last) eps = last;
-    phase.setting.regularisation.shear_rate = eps;
-    if (eps == last) phase.tolerance = tolerance;
-  }
-  return false;
+  return run(newton, phase, level) && lower_shear_rate(newton, options, tolerance, level);
 }
 
 }  // namespace
