@@ -43,7 +43,7 @@ struct PairOptions {
     d.add("--case", limits_case, "NAME",
           "Which limits of data/limits/pair.toml judge it, beside those of any pair");
     d.add("--scene-only", scene_only,
-          "Leaves the flow scene alone; without --run its material stands under a level surface");
+          "Leaves the flow scene alone; without --run its material is level");
     d.add("--accept-unsteady", accept_unsteady, "Of layers: compares a run that is not steady, too");
     d.add("--threads", threads, "", at_least(1, most_threads), "Threads of a run").decides(Decides::nothing);
     d.existing(existing, "Goes on where an earlier call was interrupted");

@@ -95,7 +95,7 @@ def test_a_region_is_measured_solved_and_compared(asked):
         assert [float(end) for end in answers.option("measure", f"--{axis}").split(",")] == pytest.approx(np.array(flow["output"][f"{axis}_mm"]) / 2)
     # The mean of both runs, from 2 d off the walls on: 36 d - 0.25 x.
     assert flow["region"]["fill_mm"] == [[0, 0], [40, 0], [40, pytest.approx(63.5)], [34, pytest.approx(63.5)], [6, pytest.approx(70.5)], [0, pytest.approx(70.5)]]
-    (particles, continuum, report, case, _, scene, record), = compared
+    (particles, continuum, report, case, _, scene, record, _), = compared
     assert [pathlib.Path(each).parent.name for each in (particles, continuum)] == ["particles", "flow"]
     assert (report.name, case, scene.name, record) == ("report", "any", "flow.toml", {"seconds": 3})
 
