@@ -231,11 +231,34 @@ std::optional<Outline> one_step(const std::vector<Front>& fronts, const Region& 
   return {};
 }
 
+// Air in a notch of the free surface sharper than this is closed: its sides would meet in a step or two.
+constexpr double sharpest_notch_deg = 40;
+
+Outline without_notches(Outline outline) {
+  const double sharpest = std::cos(sharpest_notch_deg * std::numbers::pi / 180);
+  auto& [points, part] = outline;
+  for (std::size_t i = 0, checked = 0; checked < points.size() && points.size() > 3;) {
+    const std::size_t n = points.size(), before = (i + n - 1) % n, next = (i + 1) % n;
+    const Vec2 u = points[before] - points[i], v = points[next] - points[i];
+    if (part[before] == Outline::free && part[i] == Outline::free && cross(u, v) > 0 &&
+        dot(u, v) > sharpest * length(u) * length(v)) {
+      points.erase(points.begin() + static_cast<std::ptrdiff_t>(i));
+      part.erase(part.begin() + static_cast<std::ptrdiff_t>(i));
+      i = before < i ? before : before - 1;
+      checked = 0;
+      continue;
+    }
+    i = next;
+    ++checked;
+  }
+  return outline;
+}
+
 }  // namespace
 
 LaidDown laid_down(const Outline& outline, const Region& region, double time, const SizeField& size,
                    double angle_deg) {
-  LaidDown laid{with_contacts_on_walls(outline, region, time)};
+  LaidDown laid{with_contacts_on_walls(without_notches(outline), region, time)};
   const double angle = angle_deg * std::numbers::pi / 180;
   // Each step takes at least one free point away.
   for (;;) {
