@@ -221,6 +221,17 @@ TEST(TouchDown, RefusesWhatBreaksOrMerges) {
   refused({{2, 0}, {30, 0}, {30, 4}, {20, -0.1}, {12, 4}, {2, 5}});  // a gap down to the wet floor
 }
 
+TEST(TouchDown, ClosesASharpNotch) {
+  const Region floor{{wall({-1, 0}, {21, 0}), wall({0, -1}, {0, 20}), wall({20, -1}, {20, 20})}, {}};
+  Outline outline{{{0, 0}, {20, 0}, {20, 10}, {11, 10}, {10, 5}, {9, 10}, {0, 10}},
+                  {0, 2, -1, -1, -1, -1, 1}};
+  const Outline closed = laid_down(outline, floor, 0, one).outline;
+  EXPECT_EQ(closed.points.size(), 6u);  // 22.6 degrees
+  EXPECT_NEAR(area(closed), 200, 1e-12);
+  outline.points[4] = {10, 8};  // 53 degrees
+  EXPECT_EQ(laid_down(outline, floor, 0, one).outline.points.size(), 7u);
+}
+
 }  // namespace
 }  // namespace touch_down_tests
 }  // namespace drumlin
