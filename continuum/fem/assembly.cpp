@@ -44,6 +44,17 @@ void add_point_residual(const CellShapes& s, unsigned int q, const PointValues& 
     residual[s.pressure[b]] -= shape.linear[b] * at.divergence * JxW;
 }
 
+void add_separation(const CellShapes& s, unsigned int q, double p, double rate,
+                    dealii::Vector<double>& residual, dealii::FullMatrix<double>* matrix) {
+  const CellShapes::Point& shape = s.points[q];
+  for (unsigned int b = 0; b < s.corners; ++b) {
+    residual[s.pressure[b]] -= rate * p * shape.linear[b];
+    if (matrix)
+      for (unsigned int c = 0; c < s.corners; ++c)
+        (*matrix)(s.pressure[b], s.pressure[c]) -= rate * shape.linear[b] * shape.linear[c];
+  }
+}
+
 // What velocities do to the forces goes to a place of its own, where loops over functions are loops over
 // neighbours in memory.
 template <class Response>
@@ -240,6 +251,9 @@ class CellSystem {
       add_inertia(problem_, *setting_.inertia, shapes_, q, place, JxW, at.motion, before_, mesh_velocity_,
                   force, by_velocity);
     add_point_residual(shapes_, q, at, response.stress, force, JxW, contribution.residual);
+    if (setting_.inertia && setting_.inertia->separation > 0 && at.p < 0)
+      add_separation(shapes_, q, at.p, setting_.inertia->separation * JxW, contribution.residual,
+                     with_tangent_ ? &contribution.tangent : nullptr);
     if (with_tangent_) add_point_tangent(shapes_, q, response, JxW, by_velocity_, contribution.tangent);
     if constexpr (requires { response.balance; }) {
       const double amplitude = problem_.threshold_fluidity->amplitude;
