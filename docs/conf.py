@@ -37,7 +37,7 @@ suppress_warnings = ["myst.header"]
 NOTEBOOK_PAGES = ["first-drum", "profiles-and-laws", "flow-and-comparison", "sweep", "own-scene", "contact-problems", "lammps", "accuracy-and-time"]
 BELOW = {
     "conventions": ["glossary"],
-    "scenes": ["cookbook/your-own-scene", "cookbook/pair", "effects"],
+    "scenes": ["cookbook/your-own-scene", "cookbook/pairs", "effects"],
     "scaling": ["robustness"],
     "cookbook/python": [f"notebooks/{name}" for name in NOTEBOOK_PAGES] if NOTEBOOKS else [],
     "theory/solvers": ["cookbook/contact-problems", "theory/impacts", "theory/energy", "theory/moving-cell"],
