@@ -157,6 +157,37 @@ void add_side(const Discretisation& d, const BoundaryCondition& condition, const
   }
 }
 
+// A free surface goes with the material in the mean over its sides alone. Where material would come in
+// through it at a point, it brings no energy: backflow stabilisation as at outlets (Moghadam et al., Comput.
+// Mech. 48 (2011) 277).
+void add_backflow(double density, const dealii::FEFaceValues<2>& face, const CellShapes& s,
+                  const dealii::Vector<double>& local, const dealii::Vector<double>& mesh_velocity,
+                  dealii::Vector<double>& residual, dealii::FullMatrix<double>* matrix) {
+  for (const unsigned int q : face.quadrature_point_indices()) {
+    const auto normal = face.normal_vector(q);
+    std::array<double, 2> u{};
+    double passing = 0;  // (u - W).n
+    for (unsigned int i = 0; i < s.n; ++i) {
+      const unsigned int c = s.component[i];
+      if (!moves(c)) continue;
+      u[c] += local[i] * face.shape_value(i, q);
+      passing += (local[i] - mesh_velocity[i]) * face.shape_value(i, q) * normal[c];
+    }
+    if (passing >= 0) continue;
+    const double half = 0.5 * density * face.JxW(q);
+    for (unsigned int i = 0; i < s.n; ++i) {
+      const unsigned int c = s.component[i];
+      if (!moves(c)) continue;
+      const double at_i = half * face.shape_value(i, q);
+      residual[i] -= at_i * passing * u[c];
+      if (!matrix) continue;
+      for (unsigned int j = 0; j < s.n; ++j)
+        if (const unsigned int e = s.component[j]; moves(e))
+          (*matrix)(i, j) -= at_i * face.shape_value(j, q) * (normal[e] * u[c] + (e == c ? passing : 0));
+    }
+  }
+}
+
 // Takes nu times the acceleration of the material off the force; the unknown's frame does not matter.
 void add_inertia(const FlowProblem& problem, const InertiaSetting& inertia, const CellShapes& s,
                  unsigned int q, const dealii::Point<2>& x, double JxW, PointMotion at,
@@ -264,6 +295,12 @@ class CellSystem {
 
   void add_face(const CellOfUnknowns& cell, unsigned int f) {
     const auto* condition = condition_on(problem_, cell->face(f)->boundary_id());
+    if (!condition && mesh_velocity_.size() > 0 &&
+        cell->face(f)->boundary_id() == static_cast<unsigned>(Side::top)) {
+      face_.reinit(cell, f);
+      add_backflow(problem_.density, face_, shapes_, local_, mesh_velocity_, contribution.residual,
+                   with_tangent_ ? &contribution.tangent : nullptr);
+    }
     if (!condition || (forces_of_walls_ && std::holds_alternative<FrictionWall>(*condition))) return;
     face_.reinit(cell, f);
     add_side(d_, *condition, problem_, setting_.regularisation, face_, shapes_, local_, contribution.residual,
