@@ -479,7 +479,6 @@ class FreeFlow {
       set(nodes[k].z, states[k].velocity.z);
       set(nodes[k].p, states[k].pressure);
     }
-    d().constraints.distribute(solution);
     solution.update_ghost_values();
   }
 
