@@ -187,7 +187,7 @@ Frames frames_of(const RegionRequest& asked, const RegionRun& run) {
 }
 
 double relative_energy_error(const continuum::RegionTotals& totals) {
-  return totals.weight_work > 0 ? std::abs(totals.energy_error) / totals.weight_work : 0;
+  return totals.weight_work != 0 ? std::abs(totals.energy_error / totals.weight_work) : 0;
 }
 
 // What twice the cells and twice the step change: as large as the error of the flow itself at first order.

@@ -39,7 +39,7 @@ std::map<Side, BoundaryCondition> sides_of(const Region& region, double time) {
   for (std::size_t i = 0; i < region.parts.size(); ++i) {
     const RegionPart& part = region.parts[i];
     if (part.kind == RegionPart::Kind::opening && time >= part.begins) continue;
-    const auto moves = [part, time](Vec2 x) { return wall_velocity(part, time, x); };
+    const auto moves = [region, i, time](Vec2 x) { return wall_velocity(region, i, time, x); };
     auto& side = sides[side_of_part(static_cast<int>(i))];
     if (part.kind == RegionPart::Kind::friction)
       side = FrictionWall{.velocity = moves, .friction = part.friction};
@@ -255,14 +255,14 @@ class FreeFlow {
   }
 
   bool step() {
-    change_parts();
     const std::vector<Vec2> from = state_.mesh.vertices;
     const double event = next_event();
     double dt = longest_step(velocity_at_corners(d(), from.size(), level_->state.solution));
     const auto left = std::ceil((event - state_.time) / dt - 1e-9);
     dt = (event - state_.time) / std::max(1.0, left);
     bool to_event = left <= 1;
-    level_->problem.boundary = sides_of(plan_.region, state_.time + dt);
+    // No part begins or ends within a step.
+    level_->problem.boundary = sides_of(plan_.region, state_.time + 0.5 * dt);
     const std::vector<Vec2> w = velocity_of_mesh(state_.time, from);
     const auto before = std::make_shared<FieldVector>(level_->state.solution);
     before->update_ghost_values();
@@ -298,7 +298,7 @@ class FreeFlow {
       return false;
     report_.failure.clear();
     const std::vector<Vec2> middle = moved(from, 0.5 * dt, w);
-    std::vector<Vec2> to = moved(from, dt, velocity_of_mesh(state_.time + dt, middle));
+    std::vector<Vec2> to = moved(from, dt, velocity_of_mesh(state_.time + 0.5 * dt, middle));
     look(dt);
     to = on_curves(std::move(to), state_.time + dt);
     if (!d().move_corners(level_->problem, to)) {
@@ -389,23 +389,18 @@ class FreeFlow {
     now_.cells = static_cast<int>(d().mesh.n_global_active_cells());
   }
 
+  // Walls that are no longer there leave a free surface before anything is laid down on them, and so do those
+  // that would pull.
   void remesh_where_needed() {
-    const Outline now = outline_of(state_.mesh);
-    const auto [laid, passed] = laid_down(now, plan_.region, state_.time, plan_.size);
+    const Outline before = outline_of(state_.mesh);
+    auto [laid, passed] =
+        laid_down(relabelled(before, plan_.region, state_.time), plan_.region, state_.time, plan_.size);
     state_.discharged += passed;
     state_.area -= passed;
-    if (laid.points.size() == now.points.size() && state_.steps_on_mesh < most_steps_on_a_mesh &&
-        quality(state_.mesh) > poorest_quality)
-      return;
-    remesh(laid);
-  }
-
-  // Walls that are no longer there leave a free surface, and so do those that would pull.
-  void change_parts() {
-    const Outline before = outline_of(state_.mesh);
-    Outline now = relabelled(before, plan_.region, state_.time);
-    let_go(now);
-    if (now.part != before.part) remesh(now);
+    let_go(laid);
+    if (laid.part != before.part || state_.steps_on_mesh >= most_steps_on_a_mesh ||
+        quality(state_.mesh) <= poorest_quality)
+      remesh(laid);
   }
 
   // From the surface on, as far as a wall that moves away would have to pull the material along.

@@ -7,8 +7,8 @@
 namespace drumlin::continuum::fem {
 namespace {
 
-// Where nothing moves yet, Newton's method knows no direction of D: a fluid first, then the law at smaller
-// and smaller eps.
+// Where nothing moves yet, or as a rigid body, Newton's method knows no direction of D: a fluid first, then
+// the law at smaller and smaller eps.
 bool advance_carefully(Newton& newton, const FlowSolverOptions& options, Phase phase, SolvedLevel& level) {
   const double tolerance = phase.tolerance;
   const StressLaw law = phase.setting.law;
@@ -38,7 +38,11 @@ bool advance_once(Newton& newton, const FlowSolverOptions& options, const Inerti
   level.state.held = nullptr;
   if (holds_fields(level.problem) && !at_rest)
     level.state.held = held_from(level.problem, d, before, {.linear_tolerance = options.linear_tolerance});
-  return at_rest ? advance_carefully(newton, options, phase, level) : run(newton, phase, level);
+  const State start = level.state;
+  if (!at_rest && run(newton, phase, level)) return true;
+  if (newton.was_interrupted()) return false;
+  level.state = start;
+  return advance_carefully(newton, options, phase, level);
 }
 
 }  // namespace drumlin::continuum::fem

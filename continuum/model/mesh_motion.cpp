@@ -14,6 +14,7 @@ namespace {
 constexpr double least_contact_sine = 0.3;
 // Sine of the angle below which two parts go on in one line.
 constexpr double smallest_corner_sine = 0.05;
+constexpr double at_a_wall = 1e-6;  // d
 constexpr double relaxation = 1.6;  // of Gauss-Seidel's method
 constexpr int most_sweeps = 200;
 constexpr double smooth_enough = 1e-4;  // last change over the largest velocity
@@ -44,14 +45,19 @@ class Boundary {
   void mark(std::vector<Freedom>& freedom) const {
     const std::size_t n = mesh_.boundary.size();
     std::vector<double> flux = material_.free_flux;
-    for (std::size_t i = 0; i < n; ++i) {  // contacts first: what they do not take goes to their neighbours
-      const auto &before = mesh_.boundary[(i + n - 1) % n], &after = mesh_.boundary[i];
-      const bool comes_free = before.part < 0, goes_free = after.part < 0;
-      if (comes_free == goes_free) continue;
-      const unsigned int v = after.from, next = comes_free ? before.from : after.to;
-      freedom[v] = contact(v, comes_free ? after.part : before.part);
-      flux[next] += flux[v] - dot(material_.free_normal[v], freedom[v].velocity);
-    }
+    // Contacts first, and of them those that do not move as the flux asks: what they do not take goes to
+    // their neighbours.
+    for (const bool takes : {false, true})
+      for (std::size_t i = 0; i < n; ++i) {
+        const auto &before = mesh_.boundary[(i + n - 1) % n], &after = mesh_.boundary[i];
+        const bool comes_free = before.part < 0, goes_free = after.part < 0;
+        if (comes_free == goes_free) continue;
+        const unsigned int v = after.from, next = comes_free ? before.from : after.to;
+        const int wall = comes_free ? after.part : before.part;
+        if (takes_flux(v, wall) != takes) continue;
+        freedom[v] = contact(v, wall, flux[v]);
+        flux[next] += flux[v] - dot(material_.free_normal[v], freedom[v].velocity);
+      }
     for (std::size_t i = 0; i < n; ++i) {
       const auto &before = mesh_.boundary[(i + n - 1) % n], &after = mesh_.boundary[i];
       const unsigned int v = after.from;
@@ -72,14 +78,17 @@ class Boundary {
     const Vec2 normal = material_.free_normal[v], u = material_.velocity[v];
     return {false, {}, u + ((flux - dot(u, normal)) / dot(normal, normal)) * normal};
   }
-  Freedom contact(unsigned int v, int number) const {
+  bool takes_flux(unsigned int v, int number) const {
+    const Vec2 normal = material_.free_normal[v];
+    return part(number).kind != RegionPart::Kind::opening &&
+           std::abs(dot(normal, tangent(part(number), corners_[v]))) > least_contact_sine * length(normal);
+  }
+  Freedom contact(unsigned int v, int number, double flux) const {
     const RegionPart& wall = part(number);
     const Vec2 t = tangent(wall, corners_[v]), moves = wall_motion(wall, time_);
     if (wall.kind == RegionPart::Kind::opening) return {false, {}, {}};
     const Vec2 normal = material_.free_normal[v];
-    const double along = dot(normal, t);
-    if (std::abs(along) > least_contact_sine * length(normal))
-      return {false, {}, moves + ((material_.free_flux[v] - dot(moves, normal)) / along) * t};
+    if (takes_flux(v, number)) return {false, {}, moves + ((flux - dot(moves, normal)) / dot(normal, t)) * t};
     if (wall.kind == RegionPart::Kind::rough) return {false, {}, moves};
     return {false, {}, moves + dot(material_.velocity[v] - moves, t) * t};
   }
@@ -124,6 +133,22 @@ Vec2 wall_velocity(const RegionPart& part, double time, Vec2 point) {
   const auto* circle = std::get_if<CircleCurve>(&part.curve);
   if (!circle || time < part.begins) return moves;
   return moves + part.rotation * Vec2{point.z - circle->center.z, circle->center.x - point.x};
+}
+
+Vec2 wall_velocity(const Region& region, std::size_t number, double time, Vec2 point) {
+  const RegionPart& part = region.parts[number];
+  const Vec2 own = wall_velocity(part, time, point);
+  const PartLine line = line_of(part, time);
+  for (std::size_t k = 0; k < region.parts.size(); ++k) {
+    const RegionPart& other = region.parts[k];
+    if (k == number || !is_there(other, time) || is_open(other, time)) continue;
+    const PartLine beside = line_of(other, time);
+    const double s = beside.nearest(point);
+    if (beside.distance(point) > at_a_wall || s < -at_a_wall || s > beside.length + at_a_wall) continue;
+    return meeting(line.tangent(line.nearest(point)), own, beside.tangent(s),
+                   wall_velocity(other, time, point));
+  }
+  return own;
 }
 
 std::vector<Vec2> corner_velocities(const Region& region, double time, const RegionMesh& mesh,

@@ -11,6 +11,8 @@ namespace drumlin::continuum {
 
 /// Velocity of the wall itself at a time, of its surface: what material without slip has there.
 Vec2 wall_velocity(const RegionPart& part, double time, Vec2 point);
+/// The same; where another wall meets it, the velocity that passes neither.
+Vec2 wall_velocity(const Region& region, std::size_t number, double time, Vec2 point);
 /// Of the place of the wall: a circle that turns stays where it is.
 Vec2 wall_motion(const RegionPart& part, double time);
 /// What the material does at the corners of the triangles; of the free surface also what flows through it:

@@ -126,7 +126,7 @@ TEST(RegionFlow, OfABlockFallsFreely) {
 }
 
 TEST(RegionFlow, OfAColumnKeepsItsMassAndItsEnergy) {
-  const Flow flow = ended(column(20, 10, 2.5, 15));
+  const Flow flow = ended(column(20, 10, 3, 8));
   EXPECT_LT(flow.energy_error(), 0.1);
   EXPECT_GT(flow.front(), 25);
 }
@@ -164,9 +164,39 @@ TEST(RegionFlow, GoesOnFromAFileToTheLastBit) {
                            one.state.mesh.vertices.size() * sizeof(Vec2)));
 }
 
-TEST(RegionFlow, OfASlotNarrowerThanThreeCells) { ended(silo(4, 2, 2)); }
+// A wall that recedes slowly stays in touch with the material.
+TEST(RegionFlow, FollowsAGateThatLeaves) {
+  const auto front = [](Vec2 velocity, double ends) {
+    RegionMarch march = column(12, 8, 2, 6);
+    RegionPart gate = smooth("gate", {12, 0}, {12, 20});
+    gate.velocity = velocity;
+    gate.begins = 1;
+    gate.ends = ends;
+    march.region.parts.push_back(gate);
+    return ended(march).front();
+  };
+  constexpr double stays = INFINITY;
+  EXPECT_GT(front({}, 1), 15);                      // leaves at once
+  EXPECT_NEAR(front({0.1, 0}, stays), 12.5, 1e-9);  // the material follows it to where it is
+  EXPECT_GT(front({0, 1}, stays), 12.5);            // rises
+}
 
-TEST(RegionFlow, WithoutFriction) { ended(column(16, 8, 2, 8, JopLaw{.mu_s = 0, .mu_2 = 0.3, .I_0 = 0.4})); }
+TEST(RegionFlow, OfASlotNarrowerThanThreeCells) { ended(silo(4, 3, 2)); }
+
+// At mu_s = 1 the corner of the column pulls: it takes a larger p_min than others, and stands.
+TEST(RegionFlow, WithoutFrictionAndWithMuch) {
+  EXPECT_GT(ended(column(16, 8, 2, 4, JopLaw{.mu_s = 0, .mu_2 = 0.3, .I_0 = 0.4})).front(), 20);
+  RegionMarch stands = column(16, 8, 2, 4, JopLaw{.mu_s = 1, .mu_2 = 1.3, .I_0 = 0.4});
+  stands.problem.regularisation = {1e-3, 1};
+  const Flow flow = ended(stands);
+  EXPECT_LT(flow.fastest(), 0.01);
+  EXPECT_NEAR(flow.height(), 8, 0.01);
+}
+
+TEST(RegionFlow, OfColumnsLowAndHigh) {
+  EXPECT_GT(ended(column(40, 10, 4, 3)).front(), 41);  // a = 0.25
+  EXPECT_LT(ended(column(4, 40, 2, 2)).height(), 39);  // a = 10
+}
 
 TEST(RegionFlow, DoesNotDependOnTheAxes) {
   const RegionMarch upright = column(12, 8, 2, 4);
@@ -192,6 +222,23 @@ TEST(RegionFlow, AHeapBelowItsAngleOfReposeDoesNotCreep) {
   const Flow flow = ended(march);
   EXPECT_LT(std::abs(flow.height() - height), 1e-2);
   EXPECT_LT(std::abs(flow.front() - 20), 1e-2);
+}
+
+// As a rigid body, as long as its surface is below the angle of repose.
+TEST(RegionFlow, OfADrumThatStarts) {
+  constexpr double R = 15, rotation = 0.02;
+  const RegionPart drum{.name = "drum", .curve = CircleCurve{{0, 0}, R}, .rotation = rotation};
+  std::vector<Vec2> fill;
+  for (int i = 0; i <= 30; ++i) {
+    const double angle = (i / 30.0 - 1) * 2 * right_angle;
+    fill.push_back({R * std::cos(angle), R * std::sin(angle)});
+  }
+  const RegionMarch march = plan({.parts = {drum}, .fill = fill}, 5, 0.5, 3);
+  const Flow flow = ended(march);
+  const Vec2 inside{0, -8};
+  const PointState at = flow_of(march, flow.state).at(std::span(&inside, 1)).front();
+  EXPECT_NEAR(at.velocity.x, rotation * inside.z, 1e-3);
+  EXPECT_NEAR(at.velocity.z, 0, 1e-3);
 }
 
 TEST(RegionFlow, OfAStepThatCannotConvergeSaysWhy) {
