@@ -33,6 +33,8 @@ constexpr double cells_in_a_step = 0.4;  // that the fastest material passes
 constexpr double separation = 1;  // 1/(rho0 g d sqrt(d/g))
 constexpr int most_steps_on_a_mesh = 20;
 constexpr double poorest_quality = 0.2;
+constexpr double place_of_contact = 1e-6;  // d
+constexpr double hardly_past = 0.1;        // a wall that moves, sizes: as far as corrections of the area go
 
 std::map<Side, BoundaryCondition> sides_of(const Region& region, double time) {
   std::map<Side, BoundaryCondition> sides;
@@ -300,7 +302,7 @@ class FreeFlow {
     const std::vector<Vec2> middle = moved(from, 0.5 * dt, w);
     std::vector<Vec2> to = moved(from, dt, velocity_of_mesh(state_.time + 0.5 * dt, middle));
     look(dt);
-    to = on_curves(std::move(to), state_.time + dt);
+    to = behind_moving_walls(on_curves(std::move(to), state_.time + dt), dt);
     if (!d().move_corners(level_->problem, to)) {
       report_.failure = "the mesh turned inside out";
       return false;
@@ -360,6 +362,33 @@ class FreeFlow {
       if (!std::holds_alternative<CircleCurve>(part.curve)) continue;
       const PartLine line = line_of(part, time);
       for (const unsigned int v : {edge.from, edge.to}) x[v] = line.at(line.nearest(x[v]));
+    }
+    return x;
+  }
+
+  // A contact that would pass the end of a wall which moves along its own stays at that end.
+  std::vector<Vec2> behind_moving_walls(std::vector<Vec2> x, double dt) const {
+    const auto& boundary = state_.mesh.boundary;
+    for (std::size_t i = 0, n = boundary.size(); i < n; ++i) {
+      const auto &before = boundary[(i + n - 1) % n], &after = boundary[i];
+      if ((before.part < 0) == (after.part < 0)) continue;
+      const RegionPart& wall =
+          plan_.region.parts[static_cast<std::size_t>(std::max(before.part, after.part))];
+      const unsigned int v = after.from, wet = before.part < 0 ? after.to : before.from;
+      const PartLine old = line_of(wall, state_.time), now = line_of(wall, state_.time + dt);
+      if (old.round()) continue;
+      const Vec2 was = state_.mesh.vertices[v];
+      const double dry = old.nearest(was) > old.nearest(state_.mesh.vertices[wet]) ? 1 : -1;
+      for (const RegionPart& part : plan_.region.parts) {
+        const Vec2 moves = wall_motion(part, state_.time);
+        const PartLine from = line_of(part, state_.time), to = line_of(part, state_.time + dt);
+        if (&part == &wall || !is_there(part, state_.time) || (moves.x == 0 && moves.z == 0)) continue;
+        for (const double s : {0.0, to.length})
+          if (now.distance(to.at(s)) < place_of_contact &&
+              old.nearest(from.at(s)) * dry > old.nearest(was) * dry - hardly_past * plan_.size(was) &&
+              now.nearest(x[v]) * dry > now.nearest(to.at(s)) * dry)
+            x[v] = to.at(s);
+      }
     }
     return x;
   }
