@@ -44,17 +44,6 @@ void add_point_residual(const CellShapes& s, unsigned int q, const PointValues& 
     residual[s.pressure[b]] -= shape.linear[b] * at.divergence * JxW;
 }
 
-void add_separation(const CellShapes& s, unsigned int q, double p, double rate,
-                    dealii::Vector<double>& residual, dealii::FullMatrix<double>* matrix) {
-  const CellShapes::Point& shape = s.points[q];
-  for (unsigned int b = 0; b < s.corners; ++b) {
-    residual[s.pressure[b]] -= rate * p * shape.linear[b];
-    if (matrix)
-      for (unsigned int c = 0; c < s.corners; ++c)
-        (*matrix)(s.pressure[b], s.pressure[c]) -= rate * shape.linear[b] * shape.linear[c];
-  }
-}
-
 // What velocities do to the forces goes to a place of its own, where loops over functions are loops over
 // neighbours in memory.
 template <class Response>
@@ -159,10 +148,11 @@ void add_side(const Discretisation& d, const BoundaryCondition& condition, const
 
 // A free surface goes with the material in the mean over its sides alone. Where material would come in
 // through it at a point, it brings no energy: backflow stabilisation as at outlets (Moghadam et al., Comput.
-// Mech. 48 (2011) 277).
+// Mech. 48 (2011) 277); what passes is that of the start of the step, which the mesh's velocity belongs to.
 void add_backflow(double density, const dealii::FEFaceValues<2>& face, const CellShapes& s,
-                  const dealii::Vector<double>& local, const dealii::Vector<double>& mesh_velocity,
-                  dealii::Vector<double>& residual, dealii::FullMatrix<double>* matrix) {
+                  const dealii::Vector<double>& local, const dealii::Vector<double>& before,
+                  const dealii::Vector<double>& mesh_velocity, dealii::Vector<double>& residual,
+                  dealii::FullMatrix<double>* matrix) {
   for (const unsigned int q : face.quadrature_point_indices()) {
     const auto normal = face.normal_vector(q);
     std::array<double, 2> u{};
@@ -171,19 +161,18 @@ void add_backflow(double density, const dealii::FEFaceValues<2>& face, const Cel
       const unsigned int c = s.component[i];
       if (!moves(c)) continue;
       u[c] += local[i] * face.shape_value(i, q);
-      passing += (local[i] - mesh_velocity[i]) * face.shape_value(i, q) * normal[c];
+      passing += (before[i] - mesh_velocity[i]) * face.shape_value(i, q) * normal[c];
     }
     if (passing >= 0) continue;
-    const double half = 0.5 * density * face.JxW(q);
+    const double half = 0.5 * density * passing * face.JxW(q);
     for (unsigned int i = 0; i < s.n; ++i) {
       const unsigned int c = s.component[i];
       if (!moves(c)) continue;
       const double at_i = half * face.shape_value(i, q);
-      residual[i] -= at_i * passing * u[c];
+      residual[i] -= at_i * u[c];
       if (!matrix) continue;
       for (unsigned int j = 0; j < s.n; ++j)
-        if (const unsigned int e = s.component[j]; moves(e))
-          (*matrix)(i, j) -= at_i * face.shape_value(j, q) * (normal[e] * u[c] + (e == c ? passing : 0));
+        if (s.component[j] == c) (*matrix)(i, j) -= at_i * face.shape_value(j, q);
     }
   }
 }
@@ -282,9 +271,6 @@ class CellSystem {
       add_inertia(problem_, *setting_.inertia, shapes_, q, place, JxW, at.motion, before_, mesh_velocity_,
                   force, by_velocity);
     add_point_residual(shapes_, q, at, response.stress, force, JxW, contribution.residual);
-    if (setting_.inertia && setting_.inertia->separation > 0 && at.p < 0)
-      add_separation(shapes_, q, at.p, setting_.inertia->separation * JxW, contribution.residual,
-                     with_tangent_ ? &contribution.tangent : nullptr);
     if (with_tangent_) add_point_tangent(shapes_, q, response, JxW, by_velocity_, contribution.tangent);
     if constexpr (requires { response.balance; }) {
       const double amplitude = problem_.threshold_fluidity->amplitude;
@@ -298,7 +284,7 @@ class CellSystem {
     if (!condition && mesh_velocity_.size() > 0 &&
         cell->face(f)->boundary_id() == static_cast<unsigned>(Side::top)) {
       face_.reinit(cell, f);
-      add_backflow(problem_.density, face_, shapes_, local_, mesh_velocity_, contribution.residual,
+      add_backflow(problem_.density, face_, shapes_, local_, before_, mesh_velocity_, contribution.residual,
                    with_tangent_ ? &contribution.tangent : nullptr);
     }
     if (!condition || (forces_of_walls_ && std::holds_alternative<FrictionWall>(*condition))) return;
