@@ -1,8 +1,5 @@
 #include "continuum/fem/region_march.hpp"
 
-#include <deal.II/base/mpi.h>
-#include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_values.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +7,7 @@
 #include <map>
 
 #include "continuum/fem/detail/newton.hpp"
-#include "continuum/fem/detail/split_triangles.hpp"
+#include "continuum/fem/detail/region_fields.hpp"
 #include "continuum/fem/detail/time_step.hpp"
 #include "continuum/model/mesh_motion.hpp"
 #include "continuum/model/outline.hpp"
@@ -47,60 +44,6 @@ std::map<Side, BoundaryCondition> sides_of(const Region& region, double time) {
       side = PrescribedVelocity{moves};
   }
   return sides;
-}
-
-// Per cell and vertex a corner's value, where the vertex is one.
-template <class Visit>
-void for_each_corner(const Discretisation& d, std::size_t corners, Visit visit) {
-  std::vector<dealii::types::global_dof_index> indices(d.elements.n_dofs_per_cell());
-  for (const auto& cell : d.unknowns.active_cell_iterators()) {
-    if (!cell->is_locally_owned()) continue;
-    cell->get_dof_indices(indices);
-    for (const unsigned int v : cell->vertex_indices())
-      if (const unsigned int k = cell->vertex_index(v); k < corners) visit(cell, v, k, indices);
-  }
-}
-
-// Q2's support points begin with the vertices, and an FESystem counts all components of one vertex after the
-// other.
-std::vector<Vec2> velocity_at_corners(const Discretisation& d, std::size_t corners, const FieldVector& u) {
-  std::vector<double> sums(3 * corners, 0.0);
-  for_each_corner(d, corners, [&](const auto&, unsigned int v, unsigned int k, const auto& indices) {
-    for (unsigned int c = 0; c < 2; ++c)
-      sums[3 * k + c] += u[indices[d.elements.component_to_system_index(c, v)]];
-    sums[3 * k + 2] += 1;
-  });
-  dealii::Utilities::MPI::sum(sums, d.mesh.get_communicator(), sums);
-  std::vector<Vec2> result(corners);
-  for (std::size_t k = 0; k < corners; ++k)
-    result[k] = {sums[3 * k] / sums[3 * k + 2], sums[3 * k + 1] / sums[3 * k + 2]};
-  return result;
-}
-
-// The field that is linear between the vertices of each quadrilateral.
-FieldVector field_of_corners(const Discretisation& d, const SplitTriangles& split,
-                             const std::vector<Vec2>& corners) {
-  const std::vector<Vec2> at = split.places(corners);
-  FieldVector field = d.field();
-  std::vector<dealii::types::global_dof_index> indices(d.elements.n_dofs_per_cell());
-  const auto& nodes = d.elements.base_element(0).get_unit_support_points();
-  for (const auto& cell : d.unknowns.active_cell_iterators()) {
-    if (!cell->is_locally_owned()) continue;
-    cell->get_dof_indices(indices);
-    for (unsigned int a = 0; a < nodes.size(); ++a) {
-      Vec2 value;
-      for (unsigned int v = 0; v < 4; ++v) {
-        const double share = dealii::GeometryInfo<2>::d_linear_shape_function(nodes[a], v);
-        value.x += share * at[cell->vertex_index(v)].x;
-        value.z += share * at[cell->vertex_index(v)].z;
-      }
-      for (unsigned int c = 0; c < 2; ++c)
-        if (const auto i = indices[d.elements.component_to_system_index(c, a)]; d.owned.is_element(i))
-          field[i] = c == 0 ? value.x : value.z;
-    }
-  }
-  field.update_ghost_values();
-  return field;
 }
 
 // A flow on its way.
@@ -179,59 +122,9 @@ class FreeFlow {
   }
   Discretisation& d() { return *level_->discretisation; }
 
-  CornerMotion material_motion() {
-    const std::size_t corners = state_.mesh.vertices.size();
-    const FieldVector& u = level_->state.solution;
-    CornerMotion motion{velocity_at_corners(d(), corners, u), std::vector<Vec2>(corners),
-                        std::vector<double>(corners, 0.0)};
-    std::vector<double> sums(3 * corners, 0.0);
-    outflow_ = outflow_energy_ = 0;
-    dealii::FEFaceValues<2> face(
-        d().mapping, d().elements, d().side_quadrature,
-        dealii::update_values | dealii::update_normal_vectors | dealii::update_JxW_values);
-    std::vector<dealii::Tensor<1, 2>> velocity(d().side_quadrature.size());
-    for (const auto& cell : d().unknowns.active_cell_iterators()) {
-      if (!cell->is_locally_owned()) continue;
-      for (const unsigned int f : cell->face_indices()) {
-        const auto side = cell->face(f);
-        if (!side->at_boundary() || fem::condition_on(level_->problem, side->boundary_id())) continue;
-        face.reinit(cell, f);
-        face[dealii::FEValuesExtractors::Vector(0)].get_function_values(u, velocity);
-        const bool is_free = side->boundary_id() == static_cast<int>(Side::top);
-        // From the corner at one end to the middle of the triangle's side at the other.
-        const bool corner_first = side->vertex_index(0) < corners;
-        const unsigned int corner = side->vertex_index(corner_first ? 0 : 1);
-        const auto& ends = split_->parents[side->vertex_index(corner_first ? 1 : 0)];
-        const unsigned int other = ends[1] == corner ? ends[2] : ends[1];
-        for (const unsigned int q : face.quadrature_point_indices()) {
-          const double flux = velocity[q] * face.normal_vector(q) * face.JxW(q);
-          if (!is_free) {
-            outflow_ += flux;
-            outflow_energy_ += 0.5 * plan_.problem.density * velocity[q].norm_square() * flux;
-            continue;
-          }
-          const double along = d().side_quadrature.point(q)[0],
-                       away = 0.5 * (corner_first ? along : 1 - along);
-          for (const auto& [k, share] : {std::pair{corner, 1 - away}, std::pair{other, away}}) {
-            sums[3 * k] += share * face.normal_vector(q)[0] * face.JxW(q);
-            sums[3 * k + 1] += share * face.normal_vector(q)[1] * face.JxW(q);
-            sums[3 * k + 2] += share * flux;
-          }
-        }
-      }
-    }
-    dealii::Utilities::MPI::sum(sums, d().mesh.get_communicator(), sums);
-    outflow_ = d().sum(outflow_);
-    outflow_energy_ = d().sum(outflow_energy_);
-    for (std::size_t k = 0; k < corners; ++k) {
-      motion.free_normal[k] = {sums[3 * k], sums[3 * k + 1]};
-      motion.free_flux[k] = sums[3 * k + 2];
-    }
-    return motion;
-  }
-
   std::vector<Vec2> velocity_of_mesh(double time, const std::vector<Vec2>& corners) {
-    return corner_velocities(plan_.region, time, state_.mesh, corners, material_motion());
+    flow_ = fem::boundary_flow(*level_, *split_, corners.size());
+    return corner_velocities(plan_.region, time, state_.mesh, corners, flow_.motion);
   }
 
   // The longest step: to the next frame or change of a part at most.
@@ -257,7 +150,7 @@ class FreeFlow {
   bool step() {
     const std::vector<Vec2> from = state_.mesh.vertices;
     const double event = next_event();
-    double dt = longest_step(velocity_at_corners(d(), from.size(), level_->state.solution));
+    double dt = longest_step(fem::velocity_at_corners(d(), from.size(), level_->state.solution));
     const auto left = std::ceil((event - state_.time) / dt - 1e-9);
     dt = (event - state_.time) / std::max(1.0, left);
     bool to_event = left <= 1;
@@ -287,7 +180,7 @@ class FreeFlow {
       return false;
     }
     fem::Newton newton(level_->problem, options_, d(), 0, begun_, clock_, report_, watching_);
-    const auto mesh_velocity = std::make_shared<FieldVector>(field_of_corners(d(), *split_, w));
+    const auto mesh_velocity = std::make_shared<FieldVector>(fem::field_of_corners(d(), *split_, w));
     if (!fem::advance_once(newton, options_,
                            {.share = 1, .time_step = dt, .before = before, .mesh_velocity = mesh_velocity},
                            *level_))
@@ -311,37 +204,9 @@ class FreeFlow {
   void look(double dt) {
     now_.sums = FlowField(level_).integrals();
     const auto& s = now_.sums;
-    power_ = s.weight_power + s.given_side_power - s.dissipation - outflow_energy_;
+    power_ = s.weight_power + s.given_side_power - s.dissipation - flow_.outflow_energy;
     now_.energy_error = 0.5 * dt * (state_.power + power_) - (s.kinetic_energy - state_.kinetic_energy);
-    now_.loads = loads();
-  }
-
-  // Where two parts meet, each takes what acts across it.
-  std::vector<Vec2> loads() {
-    const FieldVector forces = fem::nodal_forces(level_->problem, d(), level_->setting, level_->state);
-    const auto places = fem::places_of_unknowns(d());
-    const auto along_x = dealii::DoFTools::extract_dofs(
-        d().unknowns, d().elements.component_mask(dealii::FEValuesExtractors::Scalar(0)));
-    std::map<dealii::types::global_dof_index, std::pair<double, std::size_t>> part_of;
-    for (std::size_t i = 0; i < plan_.region.parts.size(); ++i)
-      for (const auto k : dealii::DoFTools::extract_boundary_dofs(
-               d().unknowns, d().velocity_mask(),
-               {static_cast<unsigned>(side_of_part(static_cast<int>(i)))})) {
-        if (!d().owned.is_element(k)) continue;
-        const auto& x = places.at(k);
-        const PartLine line = line_of(plan_.region.parts[i], state_.time);
-        const Vec2 t = line.tangent(line.nearest({x[0], x[1]}));
-        const std::pair<double, std::size_t> here{std::abs(along_x.is_element(k) ? t.x : t.z), i};
-        const auto [at, is_new] = part_of.try_emplace(k, here);
-        if (!is_new) at->second = std::min(at->second, here);
-      }
-    std::vector<double> sums(2 * plan_.region.parts.size(), 0.0);
-    for (const auto& [k, part] : part_of)
-      sums[2 * part.second + (along_x.is_element(k) ? 0 : 1)] -= forces[k];
-    dealii::Utilities::MPI::sum(sums, d().mesh.get_communicator(), sums);
-    std::vector<Vec2> result;
-    for (std::size_t i = 0; i < sums.size(); i += 2) result.push_back({sums[i], sums[i + 1]});
-    return result;
+    now_.loads = fem::loads_on(plan_.region, state_.time, *level_);
   }
 
   static std::vector<Vec2> moved(std::vector<Vec2> x, double dt, const std::vector<Vec2>& w) {
@@ -390,8 +255,8 @@ class FreeFlow {
   void finish(double dt) {
     ++state_.steps;
     ++state_.steps_on_mesh;
-    state_.discharged += outflow_ * dt;
-    state_.area -= outflow_ * dt;
+    state_.discharged += flow_.outflow * dt;
+    state_.area -= flow_.outflow * dt;
     now_.area = area(outline_of(state_.mesh));
     remesh_where_needed();
     const auto& solution = level_->state.solution;
@@ -408,7 +273,7 @@ class FreeFlow {
     now_.time_step = dt;
     now_.area_wanted = state_.area;
     now_.discharged = state_.discharged;
-    now_.discharge_rate = outflow_;
+    now_.discharge_rate = flow_.outflow;
     now_.cells = static_cast<int>(d().mesh.n_global_active_cells());
   }
 
@@ -456,78 +321,10 @@ class FreeFlow {
                                       state_.time, state_.area),
                             plan_.size);
       discretise();
-      transfer(*old, old_mesh);
+      fem::transfer(*old, old_mesh, *level_);
       state_.steps_on_mesh = 0;
       now_.remeshed = true;
     });
-  }
-
-  // Values of the old field at the nodes of the new mesh.
-  void transfer(const SolvedLevel& old, const RegionMesh& old_mesh) {
-    struct Node {
-      dealii::types::global_dof_index x = 0, z = 0, p = dealii::numbers::invalid_dof_index;
-    };
-    std::vector<Vec2> points;
-    std::vector<Node> nodes;
-    std::vector<bool> seen(d().unknowns.n_dofs(), false);
-    std::vector<dealii::types::global_dof_index> indices(d().elements.n_dofs_per_cell());
-    const auto& units = d().elements.base_element(0).get_unit_support_points();
-    for (const auto& cell : d().unknowns.active_cell_iterators()) {
-      if (cell->is_artificial()) continue;
-      cell->get_dof_indices(indices);
-      for (unsigned int a = 0; a < units.size(); ++a) {
-        Node node{indices[d().elements.component_to_system_index(0, a)],
-                  indices[d().elements.component_to_system_index(1, a)]};
-        if (seen[node.x]) continue;
-        seen[node.x] = true;
-        if (a < 4) node.p = indices[d().elements.component_to_system_index(fem::pressure_component, a)];
-        const auto x = d().mapping.transform_unit_to_real_cell(cell, units[a]);
-        points.push_back({x[0], x[1]});
-        nodes.push_back(node);
-      }
-    }
-    const auto states =
-        values_near(FlowField(std::shared_ptr<const SolvedLevel>(&old, [](auto*) {})), old_mesh, points);
-    FieldVector& solution = level_->state.solution;
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      const auto set = [&](dealii::types::global_dof_index i, double value) {
-        if (i != dealii::numbers::invalid_dof_index && d().owned.is_element(i)) solution[i] = value;
-      };
-      set(nodes[k].x, states[k].velocity.x);
-      set(nodes[k].z, states[k].velocity.z);
-      set(nodes[k].p, states[k].pressure);
-    }
-    solution.update_ghost_values();
-  }
-
-  // Outside of the old mesh the value of its nearest point.
-  static std::vector<PointState> values_near(const FlowField& field, const RegionMesh& mesh,
-                                             std::vector<Vec2> points) {
-    std::vector<PointState> states = field.at(points);
-    std::vector<Vec2> outside;
-    std::vector<std::size_t> which;
-    for (std::size_t k = 0; k < points.size(); ++k)
-      if (!std::isfinite(states[k].velocity.x)) {
-        which.push_back(k);
-        outside.push_back(nearest_on(mesh, points[k]));
-      }
-    const std::vector<PointState> there = field.at(outside);
-    for (std::size_t i = 0; i < which.size(); ++i) {
-      states[which[i]] = there[i];
-      if (!std::isfinite(there[i].velocity.x))
-        throw NotConvergedError("a new mesh lies far outside of the old one");
-    }
-    return states;
-  }
-  static Vec2 nearest_on(const RegionMesh& mesh, Vec2 point) {
-    Vec2 best;
-    double least = INFINITY;
-    for (const auto& edge : mesh.boundary) {
-      const Vec2 at = nearest_point({mesh.vertices[edge.from], mesh.vertices[edge.to]}, point);
-      const double distance = std::hypot(at.x - point.x, at.z - point.z);
-      if (distance < least) least = distance, best = at;
-    }
-    return best;
   }
 
   const double begun_ = fem::now();
@@ -541,9 +338,8 @@ class FreeFlow {
   std::shared_ptr<SolvedLevel> level_;
   std::optional<SplitTriangles> split_;
   RegionStep now_;
-  // Area and kinetic energy per time, of the last look at the material's motion.
-  double outflow_ = 0, outflow_energy_ = 0;
-  double power_ = 0;  // of the weight and the walls, less what is lost to the law and carried out
+  fem::BoundaryFlow flow_;  // of the last look at the material's motion
+  double power_ = 0;        // of the weight and the walls, less what is lost to the law and carried out
 };
 
 }  // namespace
