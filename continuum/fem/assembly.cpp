@@ -44,17 +44,6 @@ void add_point_residual(const CellShapes& s, unsigned int q, const PointValues& 
     residual[s.pressure[b]] -= shape.linear[b] * at.divergence * JxW;
 }
 
-void add_tearing(const CellShapes& s, unsigned int q, double tension, double rate,
-                 dealii::Vector<double>& residual, dealii::FullMatrix<double>* matrix) {
-  const CellShapes::Point& shape = s.points[q];
-  for (unsigned int b = 0; b < s.corners; ++b) {
-    residual[s.pressure[b]] += rate * tension * shape.linear[b];
-    if (matrix)
-      for (unsigned int c = 0; c < s.corners; ++c)
-        (*matrix)(s.pressure[b], s.pressure[c]) -= rate * shape.linear[b] * shape.linear[c];
-  }
-}
-
 // What velocities do to the forces goes to a place of its own, where loops over functions are loops over
 // neighbours in memory.
 template <class Response>
@@ -282,10 +271,6 @@ class CellSystem {
       add_inertia(problem_, *setting_.inertia, shapes_, q, place, JxW, at.motion, before_, mesh_velocity_,
                   force, by_velocity);
     add_point_residual(shapes_, q, at, response.stress, force, JxW, contribution.residual);
-    if (const double tension = -at.p - setting_.regularisation.pressure;
-        setting_.inertia && setting_.inertia->tearing > 0 && tension > 0)
-      add_tearing(shapes_, q, tension, setting_.inertia->tearing * JxW, contribution.residual,
-                  with_tangent_ ? &contribution.tangent : nullptr);
     if (with_tangent_) add_point_tangent(shapes_, q, response, JxW, by_velocity_, contribution.tangent);
     if constexpr (requires { response.balance; }) {
       const double amplitude = problem_.threshold_fluidity->amplitude;

@@ -20,8 +20,7 @@ bool advance(Newton& newton, const FlowSolverOptions& options, double time_step,
   const auto kept = std::make_shared<fem::FieldVector>(before.solution);
   kept->update_ghost_values();
   const bool done = advance_once(
-      newton, options,
-      {.share = 1, .time_step = time_step, .before = kept, .mesh_velocity = nullptr, .tearing = 0}, level);
+      newton, options, {.share = 1, .time_step = time_step, .before = kept, .mesh_velocity = nullptr}, level);
   if (done) return true;
   if (depth == 0 || newton.was_interrupted()) return false;
   level.state = before;

@@ -26,8 +26,6 @@ using fem::SplitTriangles;
 using fem::Work;
 
 constexpr double cells_in_a_step = 0.4;  // that the fastest material passes
-// A sheet of one cell under tension would run away: grains do not pull (docs/theory/free-surface.md).
-constexpr double tearing = 1;  // 1/(rho0 g d sqrt(d/g))
 constexpr int most_steps_on_a_mesh = 20;
 constexpr double poorest_quality = 0.2;
 constexpr double place_of_contact = 1e-6;  // d
@@ -184,11 +182,7 @@ class FreeFlow {
     fem::Newton newton(level_->problem, options_, d(), 0, begun_, clock_, report_, watching_);
     const auto mesh_velocity = std::make_shared<FieldVector>(fem::field_of_corners(d(), *split_, w));
     if (!fem::advance_once(newton, options_,
-                           {.share = 1,
-                            .time_step = dt,
-                            .before = before,
-                            .mesh_velocity = mesh_velocity,
-                            .tearing = tearing},
+                           {.share = 1, .time_step = dt, .before = before, .mesh_velocity = mesh_velocity},
                            *level_))
       return false;
     report_.failure.clear();

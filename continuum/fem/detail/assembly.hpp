@@ -48,8 +48,6 @@ struct InertiaSetting {
   double time_step = 0;                                        ///< 0: steady
   std::shared_ptr<const FieldVector> before = nullptr;         ///< solution at the start of the time step
   std::shared_ptr<const FieldVector> mesh_velocity = nullptr;  ///< null: the mesh stays where it is
-  /// Material under more tension than p_min tears: div u = tearing max(-p - p_min, 0); 0: it does not.
-  double tearing = 0;
 };
 
 /// How one system is to be formed.
