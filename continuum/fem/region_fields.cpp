@@ -26,19 +26,13 @@ void for_each_corner(const Discretisation& d, std::size_t corners, Visit visit) 
   }
 }
 
-constexpr double inwards = 1e-7;  // of a side's length
-
 Vec2 nearest_on(const RegionMesh& mesh, Vec2 point) {
   Vec2 best;
   double least = INFINITY;
   for (const auto& edge : mesh.boundary) {
     const Vec2 at = nearest_point({mesh.vertices[edge.from], mesh.vertices[edge.to]}, point);
     const double distance = std::hypot(at.x - point.x, at.z - point.z);
-    if (!(distance < least)) continue;
-    least = distance;
-    // A little to the left of the side, where the material is: no rounding puts it outside.
-    const Vec2 from = mesh.vertices[edge.from], to = mesh.vertices[edge.to];
-    best = {at.x - inwards * (to.z - from.z), at.z + inwards * (to.x - from.x)};
+    if (distance < least) least = distance, best = at;
   }
   return best;
 }
