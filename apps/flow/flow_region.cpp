@@ -99,30 +99,29 @@ class RegionRun {
   /// Goes on behind the frames that are there.
   void take_over(const KeptRegion& kept) {
     kept_ = kept;
-    add_frame();
+    add_frame(field());
   }
   /// From the last frame to the end; `kept` sees each new frame, `stepped` each step.
   void march(const std::function<void(const KeptRegion&, std::size_t number)>& kept,
              const std::function<void(const RegionStep&)>& stepped) {
     if (frames_.empty()) {
-      add_frame();
+      add_frame(field());
       if (kept) kept(kept_, 0);
     }
     while (frames_.size() < times_.size()) {
       continuum::RegionMarch march = march_;
       march.end = times_[frames_.size()];
-      march.frames = {march.end};
       continuum::RegionObserver observer;
       observer.interrupted = [] { return interruption() != 0; };
       observer.stepped = [&](const RegionStep& step) {
         kept_.step = step;
         if (stepped) stepped(step);
       };
+      observer.ended = [&](const continuum::FlowField& field) { add_frame(field); };
       const continuum::FlowReport report = continuum::march_region(march, kept_.state, options_, observer);
       cells_ = std::max(cells_, kept_.step.cells);
       if (report.interrupted) return;
       if (!report.converged) throw NotConvergedError("the flow did not converge: " + report.failure);
-      add_frame();
       if (kept) kept(kept_, frames_.size() - 1);
     }
   }
@@ -134,9 +133,8 @@ class RegionRun {
   continuum::FlowField field() const { return continuum::flow_of(march_, kept_.state); }
 
  private:
-  void add_frame() {
-    frames_.push_back(continuum::region_frame(request_, march_.region, kept_.state, kept_.step,
-                                              continuum::flow_of(march_, kept_.state)));
+  void add_frame(const continuum::FlowField& field) {
+    frames_.push_back(continuum::region_frame(request_, march_.region, kept_.state, kept_.step, field));
   }
 
   continuum::RegionMarch march_;
@@ -246,7 +244,7 @@ std::string finished_region_text(const fs::path& folder, const Json& content) {
   std::string text = fmt::format(
       "{}: {} steps, {} iterations, {:.1f} processor seconds; mass to {:.1e}, energy to {:.1e} of the "
       "weight's work\n",
-      folder.string(), content["steps"].get<int>(), content["iterations"].get<double>(),
+      folder.string(), content["steps"].get<int>(), content["iterations"].get<int>(),
       content["cpu_seconds"].get<double>(), checks["mass"].get<double>(), checks["energy"].get<double>());
   if (!content["accuracy"].is_null())
     text += fmt::format(

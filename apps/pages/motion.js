@@ -6,7 +6,7 @@ async function startMotion() {
   const content = JSON.parse(document.getElementById("motion-content").textContent), part = name => document.getElementById("motion-" + name);
   const grains = await Run.of(content.particles, content.particles.data), tracers = await Run.of(content.tracers, content.tracers.data);
   const field = content.particles.fields[0], marked = new Set(content.marked), image = pictureOf(content.flow, field);
-  const shown = { frame: 0, playing: false, since: 0 }, last = grains.frames.length - 1;
+  const shown = { frame: 0 }, last = grains.frames.length - 1;
   const view = [-1.03, 1.03, -1.03, 0.55].map(part => part * content.radius);
 
   function prepared(canvas) {
@@ -52,24 +52,7 @@ async function startMotion() {
     part("clock").textContent = `${(times[shown.frame] - times[0]).toFixed(2)} s of ${(times[last] - times[0]).toFixed(2)} s`;
   }
 
-  function step(now) {
-    if (!shown.playing) return;
-    const steps = Math.floor((now - shown.since) * FRAMES / 1000);
-    if (steps > 0) {
-      shown.since += steps * 1000 / FRAMES;
-      shown.frame = (shown.frame + Math.min(steps, FRAMES)) % (last + 1);
-      draw();
-    }
-    requestAnimationFrame(step);
-  }
-
-  part("play").addEventListener("click", () => {
-    shown.playing = !shown.playing;
-    shown.since = performance.now();
-    part("play").textContent = shown.playing ? "Pause" : "Play";
-    requestAnimationFrame(step);
-  });
-  part("scrub").addEventListener("input", () => { shown.frame = +part("scrub").value; draw(); });
+  playBack(part, shown, last, FRAMES, draw);
   part("bar").style.background = `linear-gradient(to right, ${field.colours.join(",")})`;
   part("low").textContent = `below ${shortNumber(+field.low.toPrecision(1))}`;
   part("high").textContent = shortNumber(+field.high.toPrecision(2));

@@ -6,7 +6,7 @@ async function startPair() {
   const content = JSON.parse(document.getElementById("pair-content").textContent), part = name => document.getElementById("pair-" + name);
   const { x, z, times, places } = content, wide = x[2], high = z[2], last = times.length - 1;
   const dx = (x[1] - x[0]) / Math.max(1, wide - 1), dz = (z[1] - z[0]) / Math.max(1, high - 1);
-  const shown = { frame: 0, playing: false, since: 0, field: content.fields[0] };
+  const shown = { frame: 0, field: content.fields[0] };
   for (const field of content.fields) {
     field.bytes = await Promise.all(field.sides.map(inflated));
     field.pens = field.colours.map(colour => [1, 3, 5].map(k => parseInt(colour.slice(k, k + 2), 16)));
@@ -62,24 +62,7 @@ async function startPair() {
     part("high").textContent = `${shown.field.top.toPrecision(2)} ${shown.field.unit}`;
   }
 
-  function step(now) {
-    if (!shown.playing) return;
-    const steps = Math.floor((now - shown.since) * FRAMES / 1000);
-    if (steps > 0) {
-      shown.since += steps * 1000 / FRAMES;
-      shown.frame = (shown.frame + Math.min(steps, FRAMES)) % (last + 1);
-      draw();
-    }
-    requestAnimationFrame(step);
-  }
-
-  part("play").addEventListener("click", () => {
-    shown.playing = !shown.playing;
-    shown.since = performance.now();
-    part("play").textContent = shown.playing ? "Pause" : "Play";
-    requestAnimationFrame(step);
-  });
-  part("scrub").addEventListener("input", () => { shown.frame = +part("scrub").value; draw(); });
+  playBack(part, shown, last, FRAMES, draw);
   part("field").addEventListener("change", () => { shown.field = content.fields.find(field => field.name === part("field").value); draw(); });
   addEventListener("resize", draw);
   draw();

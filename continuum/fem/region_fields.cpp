@@ -14,18 +14,6 @@
 namespace drumlin::continuum::fem {
 namespace {
 
-// Per cell and vertex a corner's value, where the vertex is one.
-template <class Visit>
-void for_each_corner(const Discretisation& d, std::size_t corners, Visit visit) {
-  std::vector<dealii::types::global_dof_index> indices(d.elements.n_dofs_per_cell());
-  for (const auto& cell : d.unknowns.active_cell_iterators()) {
-    if (!cell->is_locally_owned()) continue;
-    cell->get_dof_indices(indices);
-    for (const unsigned int v : cell->vertex_indices())
-      if (const unsigned int k = cell->vertex_index(v); k < corners) visit(cell, v, k, indices);
-  }
-}
-
 Vec2 nearest_on(const RegionMesh& mesh, Vec2 point) {
   Vec2 best;
   double least = INFINITY;
@@ -63,11 +51,18 @@ std::vector<PointState> values_near(const FlowField& field, const RegionMesh& me
 // other.
 std::vector<Vec2> velocity_at_corners(const Discretisation& d, std::size_t corners, const FieldVector& u) {
   std::vector<double> sums(3 * corners, 0.0);
-  for_each_corner(d, corners, [&](const auto&, unsigned int v, unsigned int k, const auto& indices) {
-    for (unsigned int c = 0; c < 2; ++c)
-      sums[3 * k + c] += u[indices[d.elements.component_to_system_index(c, v)]];
-    sums[3 * k + 2] += 1;
-  });
+  std::vector<dealii::types::global_dof_index> indices(d.elements.n_dofs_per_cell());
+  for (const auto& cell : d.unknowns.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
+    cell->get_dof_indices(indices);
+    for (const unsigned int v : cell->vertex_indices()) {
+      const unsigned int k = cell->vertex_index(v);
+      if (k >= corners) continue;
+      for (unsigned int c = 0; c < 2; ++c)
+        sums[3 * k + c] += u[indices[d.elements.component_to_system_index(c, v)]];
+      sums[3 * k + 2] += 1;
+    }
+  }
   dealii::Utilities::MPI::sum(sums, d.mesh.get_communicator(), sums);
   std::vector<Vec2> result(corners);
   for (std::size_t k = 0; k < corners; ++k)

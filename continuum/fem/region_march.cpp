@@ -31,12 +31,12 @@ constexpr double poorest_quality = 0.2;
 constexpr double place_of_contact = 1e-6;  // d
 constexpr double hardly_past = 0.1;        // a wall that moves, sizes: as far as corrections of the area go
 
-std::map<Side, BoundaryCondition> sides_of(const Region& region, double time) {
+std::map<Side, BoundaryCondition> sides_of(const std::shared_ptr<const Region>& region, double time) {
   std::map<Side, BoundaryCondition> sides;
-  for (std::size_t i = 0; i < region.parts.size(); ++i) {
-    const RegionPart& part = region.parts[i];
+  for (std::size_t i = 0; i < region->parts.size(); ++i) {
+    const RegionPart& part = region->parts[i];
     if (part.kind == RegionPart::Kind::opening && time >= part.begins) continue;
-    const auto moves = [region, i, time](Vec2 x) { return wall_velocity(region, i, time, x); };
+    const auto moves = [region, i, time](Vec2 x) { return wall_velocity(*region, i, time, x); };
     auto& side = sides[side_of_part(static_cast<int>(i))];
     if (part.kind == RegionPart::Kind::friction)
       side = FrictionWall{.velocity = moves, .friction = part.friction};
@@ -67,7 +67,6 @@ class FreeFlow {
 
   FlowReport march() {
     begin();
-    if (observer_.frame && state_.steps == 0) observer_.frame(state_, now_, fem::field_of(level_));
     while (state_.time < plan_.end * (1 - 1e-12)) {
       now_ = {};
       if (!step()) {
@@ -76,11 +75,9 @@ class FreeFlow {
         break;
       }
       if (observer_.stepped) observer_.stepped(now_);
-      if (observer_.frame &&
-          std::find(plan_.frames.begin(), plan_.frames.end(), state_.time) != plan_.frames.end())
-        observer_.frame(state_, now_, fem::field_of(level_));
     }
     report_.converged = report_.failure.empty();
+    if (report_.converged && observer_.ended) observer_.ended(FlowField(level_));
     report_.residual = now_.residual;
     report_.seconds = fem::now() - begun_;
     for (std::size_t i = 0; i < fem::work_names.size(); ++i)
@@ -106,9 +103,9 @@ class FreeFlow {
     level_->problem = plan_.problem;
     level_->problem.inertia = Inertia{};
     level_->problem.domain = MeshedDomain{std::make_shared<RegionMesh>(state_.mesh)};
-    level_->problem.boundary = sides_of(plan_.region, state_.time);
+    level_->problem.boundary = sides_of(region_, state_.time);
     level_->discretisation = std::make_shared<Discretisation>(level_->problem);
-    level_->state.theta = theta(state_.time);
+    level_->state.theta = std::get<FixedSlope>(plan_.problem.slope).theta;
     level_->state.solution = level_->discretisation->field();
     level_->state.solution.update_ghost_values();
     level_->setting = fem::final_setting(level_->problem);
@@ -117,9 +114,6 @@ class FreeFlow {
     split_.emplace(state_.mesh);
   }
 
-  double theta(double time) const {
-    return plan_.theta ? plan_.theta(time) : std::get<FixedSlope>(plan_.problem.slope).theta;
-  }
   Discretisation& d() { return *level_->discretisation; }
 
   std::vector<Vec2> velocity_of_mesh(double time, const std::vector<Vec2>& corners) {
@@ -142,7 +136,6 @@ class FreeFlow {
     const auto consider = [&](double time) {
       if (time > state_.time && time < next) next = time;
     };
-    for (const double frame : plan_.frames) consider(frame);
     for (const RegionPart& part : plan_.region.parts) consider(part.begins), consider(part.ends);
     return next;
   }
@@ -155,16 +148,16 @@ class FreeFlow {
     dt = (event - state_.time) / std::max(1.0, left);
     bool to_event = left <= 1;
     // No part begins or ends within a step.
-    level_->problem.boundary = sides_of(plan_.region, state_.time + 0.5 * dt);
+    level_->problem.boundary = sides_of(region_, state_.time + 0.5 * dt);
     const std::vector<Vec2> w = velocity_of_mesh(state_.time, from);
     const auto before = std::make_shared<FieldVector>(level_->state.solution);
     before->update_ghost_values();
     const fem::State old = level_->state;
     for (int halving = 0; halving <= plan_.halvings; ++halving, dt *= 0.5, to_event = false) {
       level_->state = old;
-      level_->state.theta = theta(state_.time + dt);
-      if (attempt(dt, from, w, before)) {
-        state_.time = to_event ? event : state_.time + dt;
+      const double to = to_event ? event : state_.time + dt;
+      if (attempt(dt, from, w, before, to >= plan_.end)) {
+        state_.time = to;
         finish(dt);
         return true;
       }
@@ -174,8 +167,9 @@ class FreeFlow {
   }
 
   bool attempt(double dt, const std::vector<Vec2>& from, const std::vector<Vec2>& w,
-               const std::shared_ptr<FieldVector>& before) {
-    if (!d().move_corners(level_->problem, moved(from, 0.5 * dt, w))) {
+               const std::shared_ptr<FieldVector>& before, bool is_last) {
+    const std::vector<Vec2> middle = moved(from, 0.5 * dt, w);
+    if (!d().move_corners(level_->problem, middle)) {
       report_.failure = "the mesh turned inside out";
       return false;
     }
@@ -186,9 +180,8 @@ class FreeFlow {
                            *level_))
       return false;
     report_.failure.clear();
-    const std::vector<Vec2> middle = moved(from, 0.5 * dt, w);
     std::vector<Vec2> to = moved(from, dt, velocity_of_mesh(state_.time + 0.5 * dt, middle));
-    look(dt);
+    look(dt, is_last);
     to = behind_moving_walls(on_curves(std::move(to), state_.time + dt), dt);
     if (!d().move_corners(level_->problem, to)) {
       report_.failure = "the mesh turned inside out";
@@ -201,12 +194,12 @@ class FreeFlow {
   }
 
   // What the step does, on the mesh at its middle.
-  void look(double dt) {
+  void look(double dt, bool is_last) {
     now_.sums = FlowField(level_).integrals();
     const auto& s = now_.sums;
     power_ = s.weight_power + s.given_side_power - s.dissipation - flow_.outflow_energy;
     now_.energy_error = 0.5 * dt * (state_.power + power_) - (s.kinetic_energy - state_.kinetic_energy);
-    now_.loads = fem::loads_on(plan_.region, state_.time, *level_);
+    if (is_last) now_.loads = fem::loads_on(plan_.region, state_.time, *level_);
   }
 
   static std::vector<Vec2> moved(std::vector<Vec2> x, double dt, const std::vector<Vec2>& w) {
@@ -258,20 +251,19 @@ class FreeFlow {
     state_.discharged += flow_.outflow * dt;
     state_.area -= flow_.outflow * dt;
     now_.area = area(outline_of(state_.mesh));
+    RegionTotals& totals = state_.totals;
+    totals.mass_error =
+        std::max(totals.mass_error, std::abs(now_.area + state_.discharged - totals.fill) / totals.fill);
     remesh_where_needed();
     const auto& solution = level_->state.solution;
     state_.values.assign(solution.begin(), solution.end());
     report_.iterations += now_.iterations;
-    RegionTotals& totals = state_.totals;
     totals.iterations += now_.iterations;
     totals.weight_work += dt * now_.sums.weight_power;
     totals.energy_error += now_.energy_error;
-    totals.mass_error =
-        std::max(totals.mass_error, std::abs(now_.area + state_.discharged - totals.fill) / totals.fill);
     now_.step = state_.steps;
     now_.time = state_.time;
     now_.time_step = dt;
-    now_.area_wanted = state_.area;
     now_.discharged = state_.discharged;
     now_.discharge_rate = flow_.outflow;
     now_.cells = static_cast<int>(d().mesh.n_global_active_cells());
@@ -330,6 +322,8 @@ class FreeFlow {
   const double begun_ = fem::now();
   const RegionMarch& plan_;
   RegionState& state_;
+  /// Of the sides of a flow, which may outlive the plan.
+  const std::shared_ptr<const Region> region_ = std::make_shared<Region>(plan_.region);
   const FlowSolverOptions& options_;
   const RegionObserver& observer_;
   FlowObserver watching_;

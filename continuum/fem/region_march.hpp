@@ -14,12 +14,9 @@ struct RegionMarch {
   /// Law, density, regularisation, slope: the direction of the weight. Domain and sides are the region's.
   FlowProblem problem;
   std::function<double(Vec2)> size;  ///< of the triangles
-  /// Direction of the weight (rad, as FlowProblem has it); empty: the problem's slope at all times.
-  std::function<double(double time)> theta = {};
-  double step = 0;  ///< the largest
+  double step = 0;                   ///< the largest
   double end = 0;
-  std::vector<double> frames;  ///< times that a step ends at, ascending
-  int halvings = 6;            ///< of a step that fails
+  int halvings = 6;  ///< of a step that fails
 };
 
 /// Sums over the steps so far.
@@ -28,7 +25,7 @@ struct RegionTotals {
   double weight_work = 0;
   double energy_error = 0;  ///< of the steps, with its sign
   double mass_error = 0;    ///< largest abs(area inside + discharged - fill) over the fill
-  double iterations = 0;
+  int iterations = 0;
 };
 
 /// What a flow goes on from. Bit for bit: the mesh is kept, not made anew.
@@ -36,7 +33,7 @@ struct RegionState {
   double time = 0;
   int steps = 0;
   int steps_on_mesh = 0;  ///< since it was made
-  RegionMesh mesh = {};   ///< its vertices where they are now; empty: the fill at rest
+  RegionMesh mesh = {};   ///< its vertices where they are now
   double area = 0;        ///< that the material has to have
   double discharged = 0;  ///< area that has left
   double kinetic_energy = 0;
@@ -52,12 +49,11 @@ struct RegionStep {
   int iterations = 0;   ///< halved steps included
   double residual = 0;  ///< the last
   double area = 0;      ///< of the mesh
-  double area_wanted = 0;
   double discharged = 0;
   double discharge_rate = 0;
   double fastest = 0;       ///< largest speed of a corner
   FlowIntegrals sums;       ///< on the mesh at the middle of the step
-  std::vector<Vec2> loads;  ///< force of the material on each part of the region
+  std::vector<Vec2> loads;  ///< of the last step: force of the material on each part of the region
   /// Work of the weight and of the walls over the step (trapezoidal rule), less what was lost to the law and
   /// to friction, gained as kinetic energy or carried out: nought but for the error of the step.
   double energy_error = 0;
@@ -67,8 +63,7 @@ struct RegionStep {
 
 struct RegionObserver {
   std::function<void(const RegionStep&)> stepped;
-  /// At the start (its step has done nothing) and at each of the frames, after the step that ends there.
-  std::function<void(const RegionState& state, const RegionStep& step, const FlowField&)> frame;
+  std::function<void(const FlowField&)> ended;  ///< of a march that has converged
   std::function<bool()> interrupted;
 };
 

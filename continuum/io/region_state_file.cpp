@@ -18,7 +18,7 @@ void each_number(Kept& kept, Visit visit) {
   auto& totals = state.totals;
   for (auto* number : {&state.time, &state.area, &state.discharged, &state.kinetic_energy, &state.power,
                        &totals.fill, &totals.weight_work, &totals.energy_error, &totals.mass_error,
-                       &totals.iterations, &step.time_step, &step.discharge_rate, &step.fastest})
+                       &step.time_step, &step.discharge_rate, &step.fastest})
     visit(*number);
 }
 
@@ -51,12 +51,12 @@ void write_region_state(const std::filesystem::path& file, const KeptRegion& kep
   out.add_text("law", kept.law);
   out.add_number("steps", static_cast<std::int64_t>(kept.state.steps));
   out.add_number("steps_on_mesh", static_cast<std::int64_t>(kept.state.steps_on_mesh));
-  out.add("numbers", numbers,
-          {"d, sqrt(d/g), rho0 g d",
-           "time, area, discharged, kinetic energy, its growth; area of the fill, work of the weight, error "
-           "of the "
-           "energy, of "
-           "the mass, iterations; of the last step: its length, rate of discharge, largest speed"});
+  out.add_number("iterations", static_cast<std::int64_t>(kept.state.totals.iterations));
+  out.add(
+      "numbers", numbers,
+      {"d, sqrt(d/g), rho0 g d",
+       "time, area, discharged, kinetic energy, its growth; area of the fill, work of the weight, errors of "
+       "energy and mass; of the last step: its length, rate of discharge, largest speed"});
   out.add_table("vertices", flat(mesh.vertices), 2, {"d", "x, z of the corners of the triangles"});
   out.add("triangles", triangles, {"1", "three corners each, anticlockwise"});
   out.add("boundary", boundary, {"1", "sides: from, to, part (walls, then openings; -1: free)"});
@@ -71,6 +71,7 @@ KeptRegion read_region_state(const std::filesystem::path& file) {
   KeptRegion kept{{}, {}, in.text("scene"), in.text("law")};
   kept.state.steps = static_cast<int>(in.integer("steps", 0, most));
   kept.state.steps_on_mesh = static_cast<int>(in.integer("steps_on_mesh", 0, most));
+  kept.state.totals.iterations = static_cast<int>(in.integer("iterations", 0, most));
   const std::vector<double> numbers = in.doubles("numbers", H5Range::finite);
   std::size_t count = 0;
   each_number(kept, [&](double& number) { number = count < numbers.size() ? numbers[count] : 0, ++count; });

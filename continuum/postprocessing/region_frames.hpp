@@ -1,8 +1,5 @@
 #pragma once
 // Frames of a flow with a free surface: averaged as those of grains are (docs/formats/frames.md).
-#include <functional>
-#include <vector>
-
 #include "continuum/fem/region_march.hpp"
 #include "coupling/core/results/frames.hpp"
 

@@ -33,7 +33,6 @@ RegionMarch region_march(const RegionFlow& flow, double coarsening) {
     return coarsening * size;
   };
   march.end = flow.end;
-  march.frames = flow.frames;
   return march;
 }
 

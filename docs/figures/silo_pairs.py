@@ -17,11 +17,9 @@ from drumlin.study.tables import plain
 LIMITS = pathlib.Path(__file__).absolute().parents[2] / "data/limits/pair.toml"
 
 
-def rate(read, run):
-    """Mean of the discharge while a tenth to half of the fill leaves."""
-    area = read.scalars["area"][run, 0]
-    begin, end = (np.interp(share, read.scalars["discharged"][run] / area, read.times, right=np.nan) for share in measures.STEADY)
-    return (measures.STEADY[1] - measures.STEADY[0]) * area / (end - begin)
+def rates(read):
+    floor = measures.floor_height(read)
+    return np.array([measures.rate(measures.Mean(read, floor, [run])) for run in range(len(read.runs))])
 
 
 def main():
@@ -33,10 +31,9 @@ def main():
     for words in options.pairs:
         width, paths = words.split("=", 1)
         particles, flow = paths.split(",")
-        ours = frames.read_frames(particles)
-        value, half = measures.interval(np.array([rate(ours, run) for run in range(len(ours.runs))]))
+        value, half = measures.interval(rates(frames.read_frames(particles)))
         made = json.loads((pathlib.Path(flow) / "flow.json").read_text(encoding="utf-8"))
-        slots.append({"width": float(width), "particles": float(value), "ci99": float(half), "continuum": float(rate(frames.read_frames(pathlib.Path(flow) / "frames.h5"), 0)),
+        slots.append({"width": float(width), "particles": float(value), "ci99": float(half), "continuum": float(rates(frames.read_frames(pathlib.Path(flow) / "frames.h5"))[0]),
                       "checks": made["checks"], "cpu_seconds": made["cpu_seconds"], "revision": made["provenance"]["revision"]})
         contents.append({"slot_width": float(width), "rate": {"particles": slots[-1]["particles"], "continuum": slots[-1]["continuum"]}})
     found = judgement.rate_offsets(judgement.read_pair_limits(LIMITS), contents)

@@ -127,7 +127,7 @@ TEST(RegionFlow, OfABlockFallsFreely) {
 
 TEST(RegionFlow, OfAColumnKeepsItsMassAndItsEnergy) {
   const Flow flow = ended(column(20, 10, 3, 8));
-  EXPECT_LT(flow.energy_error(), 0.15);
+  EXPECT_LT(flow.energy_error(), 0.1);
   EXPECT_GT(flow.front(), 25);
 }
 
@@ -143,7 +143,7 @@ RegionMarch silo(double slot, double cell, double end) {
 TEST(RegionFlow, OfASiloKeepsItsMassAndItsEnergy) {
   const Flow flow = ended(silo(8, 2.5, 4));
   EXPECT_GT(flow.state.discharged, 10);
-  EXPECT_LT(flow.energy_error(), 0.15);
+  EXPECT_LT(flow.energy_error(), 0.1);
 }
 
 TEST(RegionFlow, GoesOnFromAFileToTheLastBit) {

@@ -118,7 +118,7 @@ def test_frames_of_an_ensemble_at_rest_stand_on_their_walls(box, tmp_path):
         drumlin.command("measure", *runs, **ask)
     assert "2 runs at 6 times" in drumlin.command("measure", *runs, **ask, nu_bulk=0.8)
     frames = drumlin.read(tmp_path / "FRAMES/frames.h5")
-    assert frames.runs.splitlines() == [str(run) for run in runs]
+    assert frames.runs.splitlines() == [run.name for run in runs]
     assert frames.times * frames.scales_time_s == pytest.approx(np.arange(6) / 10)
     assert frames.fields_nu.shape == (2, 6, len(frames.z), len(frames.x)) and frames.height.shape == (2, 6, len(frames.x))
     # All that there is stays, and its weight stands on the walls to the solver's tolerance.

@@ -13,6 +13,7 @@
 #include "coupling/core/basics/provenance.hpp"
 #include "coupling/core/documents/csv.hpp"
 #include "coupling/core/hdf5/frames_file.hpp"
+#include "coupling/core/results/measured_run.hpp"
 #include "particles/io/run_folder.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/measurement/frames/run_frames.hpp"
@@ -124,6 +125,7 @@ int measure_frames(const MeasureOptions& options) {
         progress.show(
             fmt::format("measure  {:.0f} %", 100.0 * static_cast<double>(done) / static_cast<double>(total)));
     });
+    for (std::string& run : frames.runs) run = name_of_folder(run);
     progress.finish();
     frames.header.title = folders.front().scene.title;
     frames.header.reduced = folders.front().scene.reduced;

@@ -22,7 +22,7 @@ InputProblem problem_at(const Document& document, const std::string& path, const
 void sort_by_place(std::vector<InputProblem>& problems);
 
 /// Fills a struct from a document; collects problems instead of stopping at the first.
-class KeyReader {
+class KeyReader : public TablesOfHeld {
  public:
   /// Starts at the root of the document, which outlives the reader; problems are appended.
   KeyReader(const Document& document, std::vector<InputProblem>& problems);
@@ -70,14 +70,6 @@ class KeyReader {
   void one_table_of(V& target, const std::string&, const Alternative<T>&... options) {
     const std::string word = present_table({options.word...});
     if (!word.empty()) (choose_table(word, target, options), ...);
-  }
-  /// Tables beside that of the alternative T: `own` describes those of T, `others` those of all the rest.
-  template <class T, class V, class Own, class Others>
-  void with_table(V& target, const std::string&, Own own, Others others) {
-    if (auto* held = std::get_if<T>(&target))
-      own(*held);
-    else
-      others();
   }
 
  private:

@@ -7,6 +7,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "coupling/core/basics/enum_names.hpp"
@@ -92,5 +93,17 @@ template <class T>
 Alternative<T> alternative(std::string word, std::string sentence) {
   return {std::move(word), std::move(sentence)};
 }
+
+/// What visitors of a value that is there have: the tables beside that of the alternative T, `own` describing
+/// those of T, `others` those of all the rest.
+struct TablesOfHeld {
+  template <class T, class V, class Own, class Others>
+  void with_table(V& target, const std::string&, Own own, Others others) {
+    if (auto* held = std::get_if<T>(&target))
+      own(*held);
+    else
+      others();
+  }
+};
 
 }  // namespace drumlin

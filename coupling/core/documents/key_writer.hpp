@@ -14,7 +14,7 @@
 namespace drumlin {
 
 /// Turns a struct into a tree that holds every key, defaults too; absent optionals stay absent.
-class KeyWriter {
+class KeyWriter : public TablesOfHeld {
  public:
   KeyWriter();
   void format(const std::string& text) { add("format", Node{text, 0, 0}); }
@@ -48,14 +48,6 @@ class KeyWriter {
   template <class V, class... T>
   void one_table_of(V& source, const std::string&, const Alternative<T>&... options) {
     (write_table_if_held(source, options), ...);
-  }
-  /// Tables beside that of the alternative T: `own` describes those of T, `others` those of all the rest.
-  template <class T, class V, class Own, class Others>
-  void with_table(V& target, const std::string&, Own own, Others others) {
-    if (auto* held = std::get_if<T>(&target))
-      own(*held);
-    else
-      others();
   }
   Node take() { return std::move(root_); }
 

@@ -149,7 +149,7 @@ def pair_of_region(given, scene, output):
         return scenes.flow_scene(scene, given["nu"], given["file"], frames_s=of_run.pop("frames_s", ()), **of_run)
 
     if not given["runs"]:
-        flow, _ = flow_scene()  # refuses before anything is run
+        flow, _ = flow_scene(frames_s=sorted({0.0, *given["at"]}) if given["at"] else ())  # refuses before anything is run
         if given["scene_only"]:
             return begin(flow, output)
     require_snapshot(given, scene, first)
