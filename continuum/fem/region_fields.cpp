@@ -9,6 +9,7 @@
 
 #include "continuum/fem/flow_field.hpp"
 #include "continuum/model/part_line.hpp"
+#include "continuum/model/plane_vector.hpp"
 #include "coupling/core/basics/errors.hpp"
 
 namespace drumlin::continuum::fem {
@@ -19,7 +20,7 @@ Vec2 nearest_on(const RegionMesh& mesh, Vec2 point) {
   double least = INFINITY;
   for (const auto& edge : mesh.boundary) {
     const Vec2 at = nearest_point({mesh.vertices[edge.from], mesh.vertices[edge.to]}, point);
-    const double distance = std::hypot(at.x - point.x, at.z - point.z);
+    const double distance = length(at - point);
     if (distance < least) least = distance, best = at;
   }
   return best;

@@ -12,6 +12,7 @@
 #include "continuum/model/mesh_motion.hpp"
 #include "continuum/model/outline.hpp"
 #include "continuum/model/part_line.hpp"
+#include "continuum/model/plane_vector.hpp"
 #include "continuum/model/region_mesh.hpp"
 #include "continuum/model/touch_down.hpp"
 #include "coupling/core/basics/errors.hpp"
@@ -125,7 +126,7 @@ class FreeFlow {
   double longest_step(const std::vector<Vec2>& u) {
     double dt = plan_.step;
     for (std::size_t k = 0; k < u.size(); ++k) {
-      const double speed = std::hypot(u[k].x, u[k].z);
+      const double speed = length(u[k]);
       now_.fastest = std::max(now_.fastest, speed);
       dt = std::min(dt, cells_in_a_step * plan_.size(state_.mesh.vertices[k]) / std::max(speed, 1e-12));
     }
@@ -203,7 +204,7 @@ class FreeFlow {
   }
 
   static std::vector<Vec2> moved(std::vector<Vec2> x, double dt, const std::vector<Vec2>& w) {
-    for (std::size_t k = 0; k < x.size(); ++k) x[k] = {x[k].x + dt * w[k].x, x[k].z + dt * w[k].z};
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] = x[k] + dt * w[k];
     return x;
   }
   // Corners on a circle stay on it.
@@ -297,10 +298,9 @@ class FreeFlow {
     const RegionPart& part = plan_.region.parts[static_cast<std::size_t>(outline.part[side])];
     const Vec2 moves = wall_motion(part, state_.time);
     const Vec2 a = outline.points[side], b = outline.points[(side + 1) % outline.points.size()];
-    const double length = std::hypot(b.x - a.x, b.z - a.z);
-    const Vec2 n{(b.z - a.z) / length, (a.x - b.x) / length};
-    if (!(moves.x * n.x + moves.z * n.z > 0)) return false;
-    const std::array<Vec2, 1> middle = {{{0.5 * (a.x + b.x), 0.5 * (a.z + b.z)}}};
+    const Vec2 n = (1 / length(b - a)) * Vec2{b.z - a.z, a.x - b.x};
+    if (!(dot(moves, n) > 0)) return false;
+    const std::array<Vec2, 1> middle = {0.5 * (a + b)};
     const PointState at = FlowField(level_).at(middle).front();
     return n.x * n.x * at.sigma_xx + n.z * n.z * at.sigma_zz - 2 * n.x * n.z * at.sigma_xz < 0;
   }

@@ -4,14 +4,13 @@
 #include <cmath>
 
 #include "continuum/model/part_line.hpp"
+#include "continuum/model/plane_vector.hpp"
 #include "coupling/core/results/kernel_nodes.hpp"
 
 namespace drumlin::continuum {
 namespace {
 
 constexpr double growth = 0.25;  // of the cells per distance from an opening
-
-double distance(Vec2 a, Vec2 b) { return std::hypot(a.x - b.x, a.z - b.z); }
 
 }  // namespace
 
@@ -29,7 +28,7 @@ RegionMarch region_march(const RegionFlow& flow, double coarsening) {
   march.size = [openings, coarsening, cell = flow.cell, slot = flow.slot_cell](Vec2 x) {
     double size = cell;
     for (const SegmentCurve& opening : openings)
-      size = std::min(size, slot + growth / coarsening * distance(x, nearest_point(opening, x)));
+      size = std::min(size, slot + growth / coarsening * length(x - nearest_point(opening, x)));
     return coarsening * size;
   };
   march.end = flow.end;
