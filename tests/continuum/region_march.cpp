@@ -126,7 +126,7 @@ TEST(RegionFlow, OfABlockFallsFreely) {
 }
 
 TEST(RegionFlow, OfAColumnKeepsItsMassAndItsEnergy) {
-  const Flow flow = ended(column(20, 10, 3, 8));
+  const Flow flow = ended(column(20, 10, 2, 8));
   EXPECT_LT(flow.energy_error(), 0.1);
   EXPECT_GT(flow.front(), 25);
 }
