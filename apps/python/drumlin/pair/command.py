@@ -21,6 +21,7 @@ import numpy as np
 from drumlin.commands import program
 from drumlin.figures import whole_file
 from drumlin.pair import layers, scene as scenes
+from drumlin.scenes import toml_of
 from drumlin.study.runs import refused
 
 UNLIKE = ("title", "seed", "reduced", "output", "solver")  # may differ between a scene and a run of it
@@ -58,12 +59,10 @@ tell = None  # a Work
 
 def toml_text(content):
     """A scene as people write it: a table for each group of keys, an array of tables for each list of them."""
-    def keys(table):
-        return "".join(f"{key} = {json.dumps(value, ensure_ascii=False)}\n" for key, value in table.items())
-    text = keys({key: value for key, value in content.items() if not isinstance(value, dict) and not _is_tables(value)})
+    text = toml_of({key: value for key, value in content.items() if not isinstance(value, dict) and not _is_tables(value)})
     for name, value in content.items():
         for head, table in [(f"[{name}]", value)] if isinstance(value, dict) else [(f"[[{name}]]", each) for each in value] if _is_tables(value) else []:
-            text += f"\n{head}\n{keys(table)}"
+            text += f"\n{head}\n{toml_of(table)}"
     return text
 
 
