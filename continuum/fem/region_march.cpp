@@ -164,7 +164,12 @@ class FreeFlow {
       }
       if (report_.interrupted) return false;
     }
-    return false;
+    if (state_.steps_on_mesh == 0) return false;
+    // On a mesh made anew once more.
+    level_->state = old;
+    (void)d().move_corners(level_->problem, from);
+    remesh(outline_of(state_.mesh));
+    return step();
   }
 
   bool attempt(double dt, const std::vector<Vec2>& from, const std::vector<Vec2>& w,
