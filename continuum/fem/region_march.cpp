@@ -164,12 +164,7 @@ class FreeFlow {
       }
       if (report_.interrupted) return false;
     }
-    if (state_.steps_on_mesh == 0) return false;
-    // On a mesh made anew once more.
-    level_->state = old;
-    (void)d().move_corners(level_->problem, from);
-    remesh(outline_of(state_.mesh));
-    return step();
+    return false;
   }
 
   bool attempt(double dt, const std::vector<Vec2>& from, const std::vector<Vec2>& w,
