@@ -102,6 +102,7 @@ int processors_at_hand() {
 int run_program(const std::function<int()>& work, const std::function<bool()>& speaks) {
   open_standard_streams();
   end_at_signals();
+  end_with_parent();
   std::set_terminate(end_with_message);
   int code = 0;
   try {

@@ -1,8 +1,11 @@
 #include "apps/process/interruption.hpp"
 
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
+#include <string>
 
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/files/unfinished_file.hpp"
@@ -47,6 +50,14 @@ void end_at_signals() {
     ::sigaction(SIGHUP, &action, nullptr);
   std::signal(SIGPIPE, SIG_DFL);
   std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void end_with_parent() {
+  const char* parent = std::getenv("DRUMLIN_PARENT");
+  if (parent == nullptr) return;
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (std::to_string(::getppid()) != parent) std::raise(SIGTERM);  // it has gone before
+  ::unsetenv("DRUMLIN_PARENT");                                    // those we start are not its children
 }
 
 void outlive_readers() { std::signal(SIGPIPE, SIG_IGN); }

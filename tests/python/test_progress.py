@@ -44,14 +44,14 @@ def test_lines_of_progress_are_no_part_of_an_error(box, tmp_path):
 
 def test_ctrl_c_ends_all_runs_of_a_sweep_and_the_same_call_goes_on(box, tmp_path, interrupt_when):
     runs = [tmp_path / f"SWEEP/{number:03}" for number in range(3)]
-    sweep = lambda: drumlin.sweep(box | {"stages": [{"name": "fall", "duration_s": 6, "time_step_s": 1e-3}]},  # noqa: E731
-                                  {"effects.friction.grain_grain": [0.1, 0.2, 0.3]}, tmp_path / "SWEEP", processes=2)
+    sweep = lambda: drumlin.sweep(box | {"stages": [{"name": "fall", "duration_s": 20, "time_step_s": 1e-3}]},  # noqa: E731
+                                  {"effects.friction.grain_grain": [0.1, 0.2, 0.3]}, tmp_path / "SWEEP", "local:2")
 
     interrupt_when(*(run / "log.csv" for run in runs[:2]))
     with pytest.raises(KeyboardInterrupt):
         sweep()
     assert [drumlin.read(run)["run.json"]["status"] for run in runs[:2]] == ["interrupted"] * 2 and not runs[2].exists()
-    assert [folder["run.json"]["status"] for _, folder in sweep()] == ["finished"] * 3
+    assert [folder["run.json"]["status"] for _, folder, _ in sweep()] == ["finished"] * 3
 
 
 def test_ctrl_c_ends_a_calibration_between_two_draws():

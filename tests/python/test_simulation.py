@@ -145,23 +145,6 @@ def test_a_finished_scene_has_no_further_step(box):
     assert simulation.run() == 0
 
 
-def test_a_sweep_runs_every_combination_of_a_dict_and_goes_on(box, tmp_path, capfd):
-    box["stages"][0]["duration_s"] = 0.01
-    values = {"effects.friction.grain_grain": [0.2, 0.4], "solver.tolerance": [1e-3]}
-    runs = drumlin.sweep(box, values, tmp_path / "sweep", processes=2, progress=True)
-    assert [changes["effects.friction.grain_grain"] for changes, _ in runs] == [0.2, 0.4]
-    assert [folder["scene.toml"]["effects"]["friction"]["grain_grain"] for _, folder in runs] == [0.2, 0.4]
-    assert f"results: {tmp_path}/sweep" in capfd.readouterr().err
-    written = [(folder.path / "run.json").stat().st_mtime_ns for _, folder in runs]
-    again = drumlin.sweep(box, values, tmp_path / "sweep", progress=False)
-    assert [(folder.path / "run.json").stat().st_mtime_ns for _, folder in again] == written
-    with pytest.raises(drumlin.InputError, match="grain_grain"):
-        drumlin.sweep(box, {"effects.friction.grain_grain": [-1]}, tmp_path / "other", progress=False)
-    for processes in (0, -1):
-        with pytest.raises(drumlin.InputError, match="processes: is .*allowed: 1 or more"):
-            drumlin.sweep(box, values, tmp_path / "other", processes=processes)
-
-
 def test_objects_tell_what_they_are(box, data):
     assert "20 grains, step 0 of 300" in repr(drumlin.Simulation(box))
     profiles = drumlin.read(data / "profiles/6rpm-seed1/measured/profiles.csv")

@@ -1,20 +1,19 @@
 """The commands, for what Python does not do by itself: each is started as a process and raises what it refuses or fails at."""
 
 import functools
-import itertools
 import json
-import operator
 import os
 import pathlib
 import re
+import select
 import shutil
 import signal
 import subprocess
 import tempfile
-import time
 import tomllib
 
-from .errors import DrumlinError, InputError, IoError, NotConvergedError
+from .errors import DrumlinError, InputError, Interrupted, IoError, Killed, NotConvergedError
+from .executors import at_work, has_been_interrupted
 from .files import Folder, read
 from .inputs import file_name
 from .progress import Progress
@@ -42,14 +41,20 @@ class _Process:
     def __init__(self, words, watched=False):
         self._printed, self._said = (tempfile.TemporaryFile("a+", errors="backslashreplace") for _ in range(2))
         self._process = subprocess.Popen([program(), *map(_text, words)], stdin=subprocess.DEVNULL, stdout=self._printed, stderr=self._said,
-                                         env=os.environ | {"DRUMLIN_PROGRESS": "1"} if watched else None)
+                                         env=os.environ | {"DRUMLIN_PARENT": str(os.getpid())} | ({"DRUMLIN_PROGRESS": "1"} if watched else {}))
 
-    def has_ended(self, seconds=0.0):
-        """Whether it has ended within so many seconds."""
-        try:
-            return self._process.wait(seconds) is not None
-        except subprocess.TimeoutExpired:
-            return False
+    def has_ended(self, seconds=None):
+        """Whether it has ended within so many seconds; None: waits for its end."""
+        if self._process.returncode is None:
+            file = os.pidfd_open(self._process.pid)  # tells the end at once, which subprocess would look for every 50 ms
+            try:
+                end = select.poll()
+                end.register(file, select.POLLIN)
+                if not end.poll(None if seconds is None else 1e3 * seconds):
+                    return False
+            finally:
+                os.close(file)
+        return True
 
     def interrupt(self):
         """Hands Ctrl-C on: a run leaves a checkpoint."""
@@ -76,7 +81,7 @@ class _Process:
         text = self._words() or f"drumlin ended with exit code {code}"
         if code in (130, -signal.SIGINT):
             raise KeyboardInterrupt(text)
-        raise _KINDS.get(code, DrumlinError)(text)
+        raise Killed(text) if code < 0 or code == 128 + signal.SIGTERM else _KINDS.get(code, DrumlinError)(text)
 
     def _words(self):
         return _SHARE.sub("", self._text(self._said)).strip()
@@ -88,14 +93,17 @@ class _Process:
 
 
 def _command(words, name=None, output=None, progress=False):
-    with Progress(name, 100 if name in ("run", "measure") else None, progress, output) as bar:
+    call = at_work.get()
+    with Progress(name, 100 if name in ("run", "measure") else None, False if call and progress is None else progress, output) as bar:
         process = _Process(words, bar.shown)
         try:
-            while not process.has_ended(0.25 if bar.shown else None):
+            while not process.has_ended(0.25 if bar.shown or call else None):
                 bar.to(process.percent())
-        except KeyboardInterrupt:
+                if has_been_interrupted(call):
+                    raise Interrupted
+        except (KeyboardInterrupt, Interrupted) as error:
             process.interrupt()
-            raise KeyboardInterrupt((f"{output}: " if output else "") + process.last_word()) from None
+            raise type(error)((f"{output}: " if output else "") + process.last_word()) from None
         return process.result()
 
 
@@ -232,41 +240,3 @@ def score(fields, limits, output, against=(), overwrite: bool = False, progress:
     output = pathlib.Path(output)
     _command(_words("score", fields, limits=limits, output=output, against=against, overwrite=overwrite), "score", output, progress)
     return read(output / "score.json")
-
-
-def sweep(scene, values: dict, output, processes: int | None = None, progress: bool | None = None) -> list[tuple[dict, Folder]]:
-    """Runs a scene with every combination of values, {"effects.friction.grain_grain": [0.2, 0.4]}, in parallel processes of one thread each.
-
-    Returns [(changes, folder), ...] in the order of the combinations; the folders lie in `output`, named by their numbers, from 000 on. The same
-    call again goes on where one was interrupted: Ctrl-C leaves a checkpoint of each run. A run that fails raises its error once the others have ended.
-    """
-    if processes is not None and not operator.index(processes) >= 1:
-        raise InputError(f"processes: is {processes} (allowed: 1 or more; None: one for each processor)")
-    output = pathlib.Path(output)
-    output.mkdir(parents=True, exist_ok=True)
-    file = _scene_file(scene, output / "sweep", "drumlin-scene-1")
-    plans = [dict(zip(values, chosen)) for chosen in itertools.product(*values.values())]
-    waiting, at_work, failures = list(enumerate(plans)), [], []
-    with Progress("sweep", len(plans), progress, output) as bar:
-        try:
-            while waiting or at_work:
-                while waiting and len(at_work) < (processes or os.cpu_count()):
-                    number, plan = waiting.pop(0)
-                    at_work.append(_Process(_words("run", file, output=output / f"{number:03}", threads=1, resume=True, set=_changes(plan, file is not scene))))
-                time.sleep(0.05)
-                for process in [process for process in at_work if process.has_ended()]:
-                    at_work.remove(process)
-                    try:
-                        process.result()
-                    except DrumlinError as error:
-                        failures.append(error)
-                bar.to(len(plans) - len(waiting) - len(at_work))
-        except KeyboardInterrupt:
-            for process in at_work:
-                process.interrupt()
-            for process in at_work:
-                process.last_word()
-            raise
-        if failures:
-            raise failures[0]
-    return [(plan, read(output / f"{number:03}")) for number, plan in enumerate(plans)]

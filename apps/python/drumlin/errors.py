@@ -24,3 +24,15 @@ class IoError(DrumlinError, OSError):
 
     exit_code = 74
     problems = ()
+
+
+class Interrupted(DrumlinError):
+    """A job ended because the call of run_all that it belongs to was interrupted; the same call goes on."""
+
+    exit_code = 130
+
+
+class Killed(DrumlinError):
+    """A command was ended from outside, by a signal; a run goes on from its last checkpoint."""
+
+    exit_code = 137

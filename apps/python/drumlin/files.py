@@ -63,6 +63,16 @@ class Folder:
         """Paths of the snapshots of a run, a list in order of time."""
         return sorted((self.path / "snapshots").glob("*.h5"))
 
+    def is_complete(self):
+        """Whether its manifest says so, and all that it lists is there with its size."""
+        try:
+            lines = (self.path / "manifest.txt").read_text(encoding="utf-8").splitlines()
+            sizes = [int(line.removeprefix("# bytes = ").split(",")[0]) for line in lines if line.startswith("# bytes = ")]
+            files = [line[66:] for line in lines if not line.startswith("#")]
+            return "# state = complete" in lines and all((self.path / name).stat().st_size >= size for name, size in zip(files, sizes, strict=True))
+        except (OSError, ValueError):
+            return False
+
     def __getitem__(self, name):
         if name not in self and not (self.path / name).is_dir():
             raise IoError(f"{self.path}: holds no {name} (it holds {', '.join(self.files)})")
