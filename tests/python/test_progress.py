@@ -29,7 +29,7 @@ def test_a_long_call_shows_how_far_it_is_and_where_its_results_are(box, tmp_path
 
 def test_nothing_is_shown_without_a_terminal(box, tmp_path, capfd):
     drumlin.run(box, tmp_path / "RUN")
-    drumlin.sweep(box, {"solver.tolerance": [1e-3]}, tmp_path / "SWEEP")
+    drumlin.sweep(box, {"solver.tolerance": [1e-3]}, tmp_path / "SWEEP", report=False)
     drumlin.Simulation(box).run(steps=20)
     drumlin.calibrate(I, 0.35 + 0.02 * np.log(I), nu=0.8, draws=20)
     assert capfd.readouterr().err == ""
@@ -45,13 +45,13 @@ def test_lines_of_progress_are_no_part_of_an_error(box, tmp_path):
 def test_ctrl_c_ends_all_runs_of_a_sweep_and_the_same_call_goes_on(box, tmp_path, interrupt_when):
     runs = [tmp_path / f"SWEEP/{number:03}" for number in range(3)]
     sweep = lambda: drumlin.sweep(box | {"stages": [{"name": "fall", "duration_s": 20, "time_step_s": 1e-3}]},  # noqa: E731
-                                  {"effects.friction.grain_grain": [0.1, 0.2, 0.3]}, tmp_path / "SWEEP", "local:2")
+                                  {"effects.friction.grain_grain": [0.1, 0.2, 0.3]}, tmp_path / "SWEEP", "local:2", report=False)
 
     interrupt_when(*(run / "log.csv" for run in runs[:2]))
     with pytest.raises(KeyboardInterrupt):
         sweep()
     assert [drumlin.read(run)["run.json"]["status"] for run in runs[:2]] == ["interrupted"] * 2 and not runs[2].exists()
-    assert [folder["run.json"]["status"] for _, folder, _ in sweep()] == ["finished"] * 3
+    assert [run.folder["run.json"]["status"] for run in sweep()] == ["finished"] * 3
 
 
 def test_ctrl_c_ends_a_calibration_between_two_draws():

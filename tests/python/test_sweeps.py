@@ -8,7 +8,9 @@ import signal
 
 import drumlin
 import pytest
-from drumlin.executors import maker_of
+from drumlin.sweeping import executors
+from drumlin.sweeping.executors import maker_of
+from drumlin.sweeping.sweep import settings_of
 
 # --- jobs: module-level functions, which pickle can write
 
@@ -73,27 +75,27 @@ def test_a_sweep_runs_every_combination_of_a_dict_and_goes_on(box, tmp_path, cap
     assert [run.folder["scene.toml"]["effects"]["friction"]["grain_grain"] for run in runs] == [0.2, 0.4]
     assert f"results: {tmp_path}/sweep" in capfd.readouterr().err
     written = [(run.folder.path / "run.json").stat().st_mtime_ns for run in runs]
-    again = drumlin.sweep(box, drumlin.sweeps.settings_of(values), tmp_path / "sweep", progress=False)
+    again = drumlin.sweep(box, settings_of(values), tmp_path / "sweep", progress=False, report=False)
     assert [(run.folder.path / "run.json").stat().st_mtime_ns for run in again] == written
 
 
 def test_a_setting_that_the_scene_cannot_have_is_refused_before_anything_runs(box, tmp_path):
     with pytest.raises(drumlin.InputError, match="grain_grain"):
         drumlin.sweep(box, {"effects.friction.grain_grain": [0.2, -1]}, tmp_path / "sweep")
-    assert not (tmp_path / "sweep/000").exists()
+    assert not (tmp_path / "sweep").exists()
 
 
 def test_a_run_that_fails_is_told_and_the_others_end(box, tmp_path):
     box["stages"][0]["duration_s"] = 0.1
     misses = {"solver.max_sweeps": 1, "solver.check_every": 1, "solver.tolerance": 1e-12, "solver.stop_when_unconverged": True}
-    runs = drumlin.sweep(box, [misses, {}], tmp_path / "sweep")
+    runs = drumlin.sweep(box, [misses, {}], tmp_path / "sweep", report=False)
     assert isinstance(runs[0].error, drumlin.NotConvergedError) and "contact solver" in str(runs[0].error)
     assert runs[1].error is None and runs[1].folder["run.json"]["status"] == "finished"
 
 
 def test_a_manifest_that_is_late_is_waited_for(box, tmp_path, monkeypatch):
     box["stages"][0]["duration_s"] = 0.01
-    monkeypatch.setattr(drumlin.executors, "PATIENCE_S", 0.3)
+    monkeypatch.setattr(executors, "PATIENCE_S", 0.3)
     folder = drumlin.run(box, tmp_path / "RUN")
     assert folder.is_complete()
     file = folder.path / "log.csv"
@@ -102,7 +104,7 @@ def test_a_manifest_that_is_late_is_waited_for(box, tmp_path, monkeypatch):
     job = functools.partial(drumlin.Folder, folder.path)
     assert isinstance(drumlin.run_all([job], tmp_path)[0].error, drumlin.IoError)
     asked = []
-    monkeypatch.setattr(drumlin.executors.time, "sleep", lambda _: (asked.append(1), file.write_text(text)))
+    monkeypatch.setattr(executors.time, "sleep", lambda _: (asked.append(1), file.write_text(text)))
     assert drumlin.run_all([job], tmp_path)[0].error is None and asked == [1]
 
 

@@ -9,17 +9,20 @@ import select
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import tomllib
 
 from .errors import DrumlinError, InputError, Interrupted, IoError, Killed, NotConvergedError
-from .executors import at_work, has_been_interrupted
+from .sweeping.executors import at_work, has_been_interrupted
 from .files import Folder, read
 from .inputs import file_name
 from .progress import Progress
 from .scenes import overrides_of, toml_of
 
 _SHARE = re.compile(r"^(?:reduced )?[a-z ]+? +([\d.]+) %.*\n", re.MULTILINE)  # a line of progress
+# What mpirun and srun tell a rank: a program with MPI that it starts is none of theirs.
+_OF_A_RANK = re.compile(r"PMIX?_|OMPI_(?!ALLOW_|MCA_)|OMPI_MCA_(?:ess|orte|pmix|initial_wdir|mpi_oversubscribe)")
 _KINDS = {kind.exit_code: kind for kind in (InputError, NotConvergedError, IoError)}
 
 
@@ -35,13 +38,27 @@ def program(name="drumlin"):
     return pathlib.Path(found)
 
 
+def _environment():
+    is_rank = "PMIX_RANK" in os.environ or "PMI_RANK" in os.environ
+    return {name: value for name, value in os.environ.items() if not (is_rank and _OF_A_RANK.match(name))}
+
+
+def draw(script, *words):
+    """Runs a script of figures or of pages, as the commands do."""
+    here = pathlib.Path(__file__).parent
+    done = subprocess.run([sys.executable, "-I", "-B", here / "figures/isolated.py", here / script, *map(str, words)], stdin=subprocess.DEVNULL,
+                          capture_output=True, text=True, check=False, env=os.environ | {"MPLBACKEND": "Agg"})
+    if done.returncode:
+        raise DrumlinError(f"{script}: {done.stderr.strip()}")
+
+
 class _Process:
     """A command at work. What it prints goes to files: nobody has to read it meanwhile."""
 
     def __init__(self, words, watched=False):
         self._printed, self._said = (tempfile.TemporaryFile("a+", errors="backslashreplace") for _ in range(2))
         self._process = subprocess.Popen([program(), *map(_text, words)], stdin=subprocess.DEVNULL, stdout=self._printed, stderr=self._said,
-                                         env=os.environ | {"DRUMLIN_PARENT": str(os.getpid())} | ({"DRUMLIN_PROGRESS": "1"} if watched else {}))
+                                         env=_environment() | {"DRUMLIN_PARENT": str(os.getpid())} | ({"DRUMLIN_PROGRESS": "1"} if watched else {}))
 
     def has_ended(self, seconds=None):
         """Whether it has ended within so many seconds; None: waits for its end."""
@@ -164,16 +181,24 @@ def _from_here(entry):
     return [_from_here(value) for value in entry] if isinstance(entry, (list, tuple)) else entry
 
 
-def _scene_file(scene, output, form):
+def scene_from_here(scene, form):
+    """A scene that is no file, a text or a dict, as a dict whose files count from the current folder; a file as it is, and a text that is no TOML."""
     if isinstance(scene, str) and "\n" in scene:
         try:
             scene = tomllib.loads(scene)
         except tomllib.TOMLDecodeError:  # the command says what is wrong, and where
-            return _written(scene, output, "scene")
-    return _written({"format": form} | _from_here(scene), output, "scene") if isinstance(scene, dict) else scene
+            return scene
+    return {"format": form} | _from_here(scene) if isinstance(scene, dict) else scene
 
 
-def _changes(changes, from_here):
+def scene_file(scene, output, form):
+    """The file of a scene, written beside the folder of the results if it is none."""
+    scene = scene_from_here(scene, form)
+    return _written(scene, output, "scene") if isinstance(scene, dict) or (isinstance(scene, str) and "\n" in scene) else scene
+
+
+def changes_of(changes, from_here):
+    """Changes as words after --set; of a scene that is no file, files count from the current folder."""
     return list(overrides_of(_from_here(changes) if from_here else changes))
 
 
@@ -185,8 +210,8 @@ def run(scene, output, changes=(), threads: int = 1, overwrite: bool = False, re
     options, here and below: the others of the command, as in drumlin.command.
     """
     output = pathlib.Path(output)
-    file = _scene_file(scene, output, "drumlin-scene-1")
-    _command(_words("run", file, output=output, threads=threads, set=_changes(changes, file is not scene), overwrite=overwrite, resume=resume, **options),
+    file = scene_file(scene, output, "drumlin-scene-1")
+    _command(_words("run", file, output=output, threads=threads, set=changes_of(changes, file is not scene), overwrite=overwrite, resume=resume, **options),
              "run", output, progress)
     return read(output)
 
@@ -198,8 +223,8 @@ def solve_flow(scene, law, output, changes=(), overwrite: bool = False, progress
     """
     output = pathlib.Path(output)
     law = _written(law, output, "law") if hasattr(law, "write") else law
-    file = _scene_file(scene, output, "drumlin-flow-scene-1")
-    _command(_words("flow", file, rheology=law, output=output, set=_changes(changes, file is not scene), overwrite=overwrite, **options), "flow", output, progress)
+    file = scene_file(scene, output, "drumlin-flow-scene-1")
+    _command(_words("flow", file, rheology=law, output=output, set=changes_of(changes, file is not scene), overwrite=overwrite, **options), "flow", output, progress)
     return read(output)
 
 
@@ -228,8 +253,8 @@ def make_pair(scene, law, output, changes=(), runs=(), seeds: int = 1, at=(), ov
     """
     output = pathlib.Path(output)
     law = _written(law, output, "law") if hasattr(law, "write") else law
-    file = _scene_file(scene, output, "drumlin-scene-1")
-    _command(_words("pair", file, law=law, output=output, set=_changes(changes, file is not scene), run=runs, seeds=seeds, at=at, overwrite=overwrite,
+    file = scene_file(scene, output, "drumlin-scene-1")
+    _command(_words("pair", file, law=law, output=output, set=changes_of(changes, file is not scene), run=runs, seeds=seeds, at=at, overwrite=overwrite,
                     resume=resume, **options), "pair", output, progress)
     return read(output)
 

@@ -2,12 +2,12 @@
 
 import json
 import pathlib
-import subprocess
 import sys
 
 import numpy as np
 
-from ..errors import DrumlinError, InputError
+from ..commands import draw
+from ..errors import InputError
 from ..figures import whole_file
 from ..study.runs import refused
 from ..study.tables import plain
@@ -19,7 +19,6 @@ from .loads import mean_loads
 
 STRESS = ("sigma_xx", "sigma_zz", "sigma_xz")
 ERRORS = {"v": ("v_x", "v_z"), "stress": STRESS} | {name: (name,) for name in ("v_x", "v_z", *STRESS, "p", "mu")}
-_HERE = pathlib.Path(__file__).absolute().parents[1]
 
 
 def require_one_grid(first, second):
@@ -86,8 +85,8 @@ def compare(particles, continuum, output, case="any", limits=None, scene=None, r
     output.mkdir(parents=True, exist_ok=True)
     whole_file.write_text(output / "pair.json", json.dumps(content, indent=1) + "\n")
     if figures:
-        _script("figures/pair_figures.py", output / "pair.json", particles, continuum, output)
-        _script("pages/write_page.py", "pair.html", output / "pair.json", output)
+        draw("figures/pair_figures.py", output / "pair.json", particles, continuum, output)
+        draw("pages/write_page.py", "pair.html", output / "pair.json", output)
     return content
 
 
@@ -102,13 +101,6 @@ def as_lists(value):
     if isinstance(value, (list, tuple)):
         return [as_lists(one) for one in value]
     return value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
-
-
-def _script(name, *words):
-    done = subprocess.run([sys.executable, "-I", "-B", _HERE / "figures/isolated.py", _HERE / name, *map(str, words)], capture_output=True, text=True,
-                          check=False)
-    if done.returncode:
-        raise DrumlinError(f"{name}: {done.stderr.strip()}")
 
 
 def main(words):

@@ -110,7 +110,7 @@ def _number(value):
     return np.float64(math.nan if value is None else value)
 
 
-def _scalars(content):
+def scalars_of(content):
     """Top-level numbers of measured.json or flow.json: plain ones, {"value", "ci99"}, and null."""
     found = {}
     for name, entry in content.items():
@@ -180,7 +180,7 @@ def read_run(folder):
     identity |= {"settings." + key: settings[key] for key in SETTINGS if key in settings}
     run = _json(folder / "run.json") if (folder / "run.json").exists() else {}
     line = tuple(_number(measured.get("fits", {}).get(key)) for key in ("fit_bottom", "fit_top"))
-    return Run(_name_of(folder), str(folder), rpm, profile, _scalars(measured), identity, numerics, _unsteady(measured), _number(run.get("cpu_seconds")),
+    return Run(_name_of(folder), str(folder), rpm, profile, scalars_of(measured), identity, numerics, _unsteady(measured), _number(run.get("cpu_seconds")),
                line=line)
 
 
@@ -192,7 +192,7 @@ def read_flow(folder):
         raise refused([(str(folder / "flow.json"), "geometry", f"is {words(flow['geometry'])}", '"drum"')])
     settings = flow["settings"]
     profile, rpm = _profile_and_speed(folder / "profiles.csv", settings)
-    scalars = _scalars(flow)
+    scalars = scalars_of(flow)
     for name, width in ((flow.get("law_band") or {}).get("scalars") or {}).items():
         width = width.get("ci99") if isinstance(width, dict) else width
         if name in scalars and width is not None:

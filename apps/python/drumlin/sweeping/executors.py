@@ -13,9 +13,9 @@ import socket
 import time
 import typing
 
-from .errors import DrumlinError, InputError, Interrupted, IoError, Killed
-from .files import Folder
-from .progress import Progress
+from ..errors import DrumlinError, InputError, Interrupted, IoError, Killed
+from ..files import Folder
+from ..progress import Progress
 
 PATIENCE_S = 60  # for another process to leave a folder, for a shared file system to show a file, for jobs that are told to end
 
@@ -141,7 +141,8 @@ class _Work:
             number, future, executor = self.told.get()
             self.at_work.pop(number, None)
             try:
-                return number, Outcome(_arrived(future.result()))
+                value = future.result()
+                return number, Outcome(arrived(value) if isinstance(value, Folder) else value)
             except concurrent.futures.BrokenExecutor as error:
                 if not self._lost_with_the_pool(number, executor):
                     return number, Outcome(error=error)
@@ -165,15 +166,14 @@ class _Work:
                 self.at_work.pop(self.told.get(timeout=1)[0], None)
 
 
-def _arrived(value):
-    """A folder of results once its manifest and what that lists is there: a shared file system may show files later than their worker."""
-    if isinstance(value, Folder):
-        end = time.monotonic() + PATIENCE_S
-        while not value.is_complete():
-            if time.monotonic() > end:
-                raise IoError(f"{value.path}: its manifest has not come, or does not list what is there, {PATIENCE_S} s after the run has ended")
-            time.sleep(0.2)
-    return value
+def arrived(folder):
+    """A Folder of results once its manifest and what that lists is there: a shared file system may show files later than their worker."""
+    end = time.monotonic() + PATIENCE_S
+    while not folder.is_complete():
+        if time.monotonic() > end:
+            raise IoError(f"{folder.path}: its manifest has not come, or does not list what is there, {PATIENCE_S} s after the run has ended")
+        time.sleep(0.2)
+    return folder
 
 
 def run_all(jobs, folder, executor=None, progress: bool | None = None, ended=None) -> list[Outcome]:
