@@ -6,6 +6,7 @@
 #define COMMANDS(row) \
   row(new_scene_command) \
   row(run_command) \
+  row(sweep_command) \
   row(measure_command) \
   row(import_command) \
   row(plot_command) \

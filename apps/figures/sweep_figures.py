@@ -4,16 +4,16 @@ usage: sweep_figures.py SWEEP.json FOLDER
 FOLDER takes quantities.png; nothing where no run has a number yet.
 """
 
+import itertools
 import math
 import pathlib
 import sys
 
 import matplotlib.pyplot as plt
 
+import quantity_table
 import script
 import style
-
-MOST_LINES = len(style.COLORS)
 
 
 def is_number(value):
@@ -43,36 +43,54 @@ def places(key, groups):
     return [names.index(str(value)) for value in values], names
 
 
+def label_of(quantity):
+    known = quantity_table.SCALARS.get(quantity)
+    return known.axis_label().replace("  [", "\n[") if known else style.plain(quantity, 24)
+
+
+def draw_line(axes, points, label, color, joined):
+    """Points (x, value, half width); one whose interval is not known is hollow."""
+    x, values, halves = zip(*points)
+    axes.errorbar(x, values, [half if math.isfinite(half) else 0 for half in halves], fmt="-" if joined else "none", color=color, capsize=2)
+    for hollow in (False, True):
+        shown = [point[:2] for point in points if math.isfinite(point[2]) != hollow]
+        if shown:
+            axes.plot(*zip(*shown), "o", color=color, markerfacecolor="white" if hollow else color)
+    axes.plot([], [], "o-", color=color, label=style.plain(label, 40) or None)
+
+
 def draw_panel(axes, key, quantity, groups):
     x, names = places(key, groups)
     place = {id(group): at for group, at in zip(groups, x)}
     lines = lines_over(key, groups)
-    few = len(lines) <= MOST_LINES
+    few = len(lines) <= len(style.COLORS)
     for k, (label, of) in enumerate(lines.items()):
-        points = sorted((place[id(group)], style.value_of(group["numbers"].get(quantity)), style.half_width_of(group["numbers"].get(quantity))) for group in of)
-        points = [point for point in points if math.isfinite(point[1])]
+        entries = [(place[id(group)], group["numbers"].get(quantity)) for group in of]
+        points = sorted((at, style.value_of(entry), style.half_width_of(entry)) for at, entry in entries if math.isfinite(style.value_of(entry)))
         if points:
-            along, values, halves = zip(*points)
-            halves = [half if math.isfinite(half) else 0 for half in halves]
-            axes.errorbar(along, values, halves, fmt="o-" if few else "o", color=style.COLORS[k] if few else style.PARTICLES, capsize=2, label=style.plain(label, 40) or None)
+            draw_line(axes, points, label, style.COLORS[k] if few else style.PARTICLES, few)
     if names is not None:
         axes.set_xticks(range(len(names)), [style.plain(name, 14) for name in names])
     elif min(x) > 0 and max(x) > 20 * min(x):
         axes.set_xscale("log")
-    axes.set(xlabel=style.plain(key, 40), ylabel=style.plain(quantity, 40))
+    axes.set(xlabel=style.plain(key, 40), ylabel=label_of(quantity))
+    axes.yaxis.label.set_fontsize(11)
     return few and len(lines) > 1
 
 
 def draw(content):
-    groups, quantities = content["groups"], content["quantities"]
-    keys = varied_keys(groups)
-    if not quantities or not keys:
+    groups = content["groups"]
+    panels = [(quantity, key) for quantity in content["quantities"] for key in varied_keys(groups)]
+    if not panels:
         return None
-    figure, panels = plt.subplots(len(quantities), len(keys), squeeze=False, figsize=(5.6 * len(keys), 3.2 * len(quantities)))
-    for row, quantity in zip(panels, quantities):
-        for axes, key in zip(row, keys):
-            if draw_panel(axes, key, quantity, groups) and row is panels[0]:
-                axes.legend(fontsize=9)
+    columns = min(3, len(panels)) if len(varied_keys(groups)) == 1 else len(varied_keys(groups))
+    rows = math.ceil(len(panels) / columns)
+    figure, grid = plt.subplots(rows, columns, squeeze=False, figsize=(5 * columns, 3.2 * rows))
+    for axes, panel in itertools.zip_longest(grid.flat, panels):
+        if panel is None:
+            axes.set_visible(False)
+        elif draw_panel(axes, panel[1], panel[0], groups):
+            axes.legend(fontsize=9)
     return figure
 
 

@@ -9,7 +9,7 @@ import signal
 import drumlin
 import pytest
 from drumlin.sweeping import executors
-from drumlin.sweeping.executors import maker_of
+from drumlin.sweeping.executors import workers_of
 from drumlin.sweeping.sweep import settings_of
 
 # --- jobs: module-level functions, which pickle can write
@@ -109,5 +109,5 @@ def test_a_manifest_that_is_late_is_waited_for(box, tmp_path, monkeypatch):
 
 
 def test_an_executor_named_by_a_word():
-    with maker_of("local:3")() as pool:
+    with workers_of("local:3") as pool:
         assert pool._max_workers == 3  # pylint: disable=protected-access

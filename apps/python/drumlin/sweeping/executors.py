@@ -17,6 +17,7 @@ from ..errors import DrumlinError, InputError, Interrupted, IoError, Killed
 from ..files import Folder
 from ..progress import Progress
 
+AT_WORK = ".at-work"  # how the name of a file ends that says that a call goes on
 PATIENCE_S = 60  # for another process to leave a folder, for a shared file system to show a file, for jobs that are told to end
 
 at_work = contextvars.ContextVar("at_work", default=None)  # the file that is there while the call of run_all goes on to which a job belongs
@@ -60,7 +61,7 @@ def _called(job, call):
 @contextlib.contextmanager
 def _call_in(folder):
     """The file that says to all workers that the call goes on."""
-    file = pathlib.Path(os.path.abspath(folder)) / f".drumlin-{os.getpid()}-{secrets.token_hex(8)}.at-work"
+    file = pathlib.Path(os.path.abspath(folder)) / f".drumlin-{os.getpid()}-{secrets.token_hex(8)}{AT_WORK}"
     file.parent.mkdir(parents=True, exist_ok=True)
     try:
         file.write_text(f"process {os.getpid()} on {socket.gethostname()}\n", encoding="utf-8")
@@ -77,18 +78,36 @@ def processors_at_hand():
     return len(os.sched_getaffinity(0))
 
 
-def maker_of(text):
-    """The function that makes the executor which a text names: "local" or "local:2" (so many threads, each of which waits for a run), "dask:ADDRESS"."""
-    kind, _, of = text.partition(":")
+@contextlib.contextmanager
+def workers_of(executor):
+    """The executor itself, or one that a text names, which is ended: "local" or "local:2" (so many threads, each of which waits for a run), "dask:ADDRESS".
+    None: local."""
+    if hasattr(executor, "submit"):
+        yield executor
+        return
+    kind, _, of = str(executor or "local").partition(":")
     if kind == "local" and (not of or (of.isascii() and of.isdigit() and int(of) >= 1)):
-        return functools.partial(concurrent.futures.ThreadPoolExecutor, int(of or processors_at_hand()))
-    if kind == "dask" and of:
+        pool = concurrent.futures.ThreadPoolExecutor(int(of or processors_at_hand()))
         try:
-            from distributed import Client  # pylint: disable=import-outside-toplevel  # of those who have a cluster
-        except ModuleNotFoundError as error:
-            raise InputError(f"executor {text}: dask is not installed (Debian: python3-distributed)") from error
-        return functools.partial(Client, of)
-    raise InputError(f"executor: '{text}' is none (allowed: local, local:N, dask:ADDRESS, or an object with submit)")
+            yield pool
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+    elif kind == "dask" and of:
+        with _dask_client(of) as client:
+            yield client
+    else:
+        raise InputError(f"executor: '{executor}' is none (allowed: local, local:N, dask:ADDRESS, or an object with submit)")
+
+
+def _dask_client(address):
+    try:
+        from distributed import Client  # pylint: disable=import-outside-toplevel  # of those who have a cluster
+    except ModuleNotFoundError as error:
+        raise InputError(f"executor dask:{address}: dask is not installed (Debian: python3-distributed)") from error
+    try:
+        return Client(address)
+    except (OSError, ValueError) as error:
+        raise IoError(f"executor dask:{address}: no scheduler answers: {error}") from error
 
 
 def _anew(pool):
@@ -103,14 +122,8 @@ class _Work:
 
     def __init__(self, jobs, call, executor):
         self.jobs, self.call = jobs, call
-        self.made = contextlib.ExitStack()  # what is made here, and ended
-        self.executor = executor if hasattr(executor, "submit") else self._made(maker_of(executor or "local")())
+        self.executor, self.anew = executor, contextlib.ExitStack()  # pools in place of broken ones, to be ended
         self.at_work, self.told, self.lost = {}, queue.SimpleQueue(), collections.Counter()
-
-    def _made(self, executor):
-        end = functools.partial(executor.shutdown, wait=False, cancel_futures=True) if isinstance(executor, concurrent.futures.Executor) else executor.close
-        self.made.callback(end)
-        return executor
 
     def submit(self, number):
         try:
@@ -131,7 +144,7 @@ class _Work:
             self.lost["pool"] += 1
             if anew is None:
                 return False
-            self.executor = self._made(anew)
+            self.executor = self.anew.enter_context(anew)
         self.submit(number)
         return True
 
@@ -187,9 +200,9 @@ def run_all(jobs, folder, executor=None, progress: bool | None = None, ended=Non
     """
     jobs = list(jobs)
     outcomes = [Outcome()] * len(jobs)
-    with _call_in(folder) as call, Progress("jobs", len(jobs), progress, folder) as bar:
-        work = _Work(jobs, call, executor)
-        with work.made:
+    with workers_of(executor) as workers, _call_in(folder) as call, Progress("jobs", len(jobs), progress, folder) as bar:
+        work = _Work(jobs, call, workers)
+        with work.anew:
             try:
                 for number in range(len(jobs)):
                     work.submit(number)

@@ -14,7 +14,7 @@ from ..errors import DrumlinError
 from ..files import Folder
 from ..scenes import resolved
 from ..study.runs import scalars_of
-from .executors import arrived, run_all
+from .executors import AT_WORK, arrived, run_all, workers_of
 from .report import Report
 
 FORM = "drumlin-scene-1"
@@ -65,11 +65,13 @@ class Sweep:
             resolved(scene_from_here(scene, FORM), each)
         self.folders = [Folder(self.output.absolute() / f"{number:03}") for number in range(len(self.settings))]
 
-    def begin(self, overwrite=False, request=""):
+    def begin(self, overwrite=False, resume=True, request=""):
         """Claims the folder. request: the sum of what the command line asks for."""
         inputs = [self.scene] if os.path.exists(str(self.scene)) else []
-        self.claimed = _drumlin.GrowingOutput(str(self.output), "sweep", not overwrite, overwrite, [os.fspath(each) for each in inputs],
+        self.claimed = _drumlin.GrowingOutput(str(self.output), "sweep", resume and not overwrite, overwrite, [os.fspath(each) for each in inputs],
                                               ["sweep.json", "quantities.png", "index.html", "sweep-scene.toml"], request)
+        for left in self.output.glob(f".drumlin-*{AT_WORK}"):  # by a call that was killed: what still works for it ends
+            left.unlink(missing_ok=True)
         self.claimed.forget("*")
         self.claimed.save()
         file = scene_file(self.scene, self.output / "sweep", FORM)
@@ -87,9 +89,10 @@ class Sweep:
         except BaseException:
             report.renew("interrupted")
             raise
-        failed = report.renew("finished")
-        self.claimed.finish()
-        return [self._run(number, outcome) for number, outcome in enumerate(outcomes)], failed
+        failed, runs = report.renew("finished"), [self._run(number, outcome) for number, outcome in enumerate(outcomes)]
+        if not any(run.error for run in runs):  # else the next call tries them again
+            self.claimed.finish()
+        return runs, failed
 
     def _run(self, number, outcome):
         error = outcome.error
@@ -110,7 +113,9 @@ def sweep(scene, values, output, executor=None, progress: bool | None = None, me
     options of drumlin.measure for each run, {} for the usual; None: not measured. numbers(folder): called in the worker, {name: study.Scalar or number};
     absent: those of the measurement and rates of outlets. changes: of all runs, as in run. report: with figure and page. options: of drumlin.run.
     """
-    runs, failed = Sweep(scene, values, output, changes).begin(overwrite).execute(executor, progress, measured, numbers, options, report=report)
+    work = Sweep(scene, values, output, changes)
+    with workers_of(executor) as workers:
+        runs, failed = work.begin(overwrite).execute(workers, progress, measured, numbers, options, report=report)
     if failed:
         warnings.warn(failed)
     return runs
