@@ -1,0 +1,121 @@
+"""The runs of the library of laws: `law_runs.py PROGRAM FOLDER [--workers N] [--first K]` runs what is missing of the design, in the order of its use.
+
+Each run is data/scenes/plane-shear-cell.toml with other grains, shear rate, seed and accuracy; a finished run is skipped, so that a call goes on where
+the last one ended. `measure_laws.py` measures the runs.
+"""
+import argparse
+import concurrent.futures
+import itertools
+import json
+import math
+import os
+import pathlib
+import subprocess
+
+SCENE = pathlib.Path(__file__).resolve().parents[2] / "data/scenes/plane-shear-cell.toml"
+PRESSURE, DENSITY, DIAMETER = 270.0, 2700.0, 2e-3                       # of the scene: N/m2, kg/m3, m
+INERTIAL_TIME = math.sqrt(DENSITY * math.pi / 4 * DIAMETER**2 / PRESSURE)   # sqrt(m/P), m the mass of the mean disc
+
+AXIS = [0.4, 0.0, 0.2, 0.1, 1.0, 0.05, 0.3, 0.6]
+DEFAULT = {"friction": 0.4, "restitution": 0.1, "sizes": "0.2", "rolling_resistance": 0.0}
+OTHERS = [{"restitution": 0.5}, {"restitution": 0.9}, {"sizes": "0.05"}, {"sizes": "0.5"}, {"sizes": "1:2"},
+          {"rolling_resistance": 0.05}, {"rolling_resistance": 0.1}, {"rolling_resistance": 0.3}]
+
+# I: (time step in s, strain to forget the start, strain that is measured, snapshots of both)
+PLAN = {0.3: (1e-4, 3, 16, (60, 300)), 0.16: (1.5e-4, 3, 12, (60, 300)), 0.08: (3e-4, 3, 12, (60, 300)), 0.04: (5e-4, 3, 12, (60, 300)),
+        0.02: (6e-4, 2, 8, (60, 300)), 0.01: (8e-4, 1.5, 6, (60, 300)), 0.003: (1e-3, 1.2, 5, (60, 300)), 0.001: (1e-3, 1, 4, (60, 240)),
+        1e-4: (1e-3, 0.5, 1.5, (50, 200))}
+
+
+def grains():
+    """Every kind of grains of the design, the axis of friction first."""
+    kinds = [dict(DEFAULT, friction=mu) for mu in AXIS]
+    return kinds + [dict(DEFAULT, friction=mu, **change) for mu in (0.4, 0.2) for change in OTHERS]
+
+
+def run(kind, inertial, seed=1, count=400, step_factor=1.0, tolerance_factor=1.0):
+    return dict(kind, I=inertial, seed=seed, count=count, step_factor=step_factor, tolerance_factor=tolerance_factor)
+
+
+def design():
+    """All runs, the most useful first."""
+    of_rigid = [i for i in PLAN if i >= 1e-3]
+    runs = [run(kind, i) for kind in grains() for i in of_rigid]
+    runs += [run(dict(DEFAULT, friction=mu), 1e-4) for mu in (0.4, 0.0)]
+    checked = [dict(DEFAULT), dict(DEFAULT, friction=0.2)]
+    seeds = [run(kind, i, seed) for seed, i, kind in itertools.product((2, 3), of_rigid, grains())]
+    costly = [r for r in seeds if r["I"] < 5e-3]
+    checks = [run(kind, i, seed, **change) for change in ({"count": 800}, {"step_factor": 0.5, "tolerance_factor": 0.5})
+              for kind, i, seed in zip(checked, (0.08, 0.01), (1, 1))]
+    return runs + [r for r in seeds if r["I"] >= 5e-3] + checks + costly
+
+
+def name(r):
+    text = f"mu{r['friction']:g}-e{r['restitution']:g}-s{r['sizes'].replace(':', 'to')}-r{r['rolling_resistance']:g}-I{r['I']:g}-seed{r['seed']}"
+    return text + (f"-n{r['count']}" if r["count"] != 400 else "") + ("-fine" if r["step_factor"] != 1 else "")
+
+
+def diameters(sizes):
+    """Smallest and largest diameter in mm, and the distribution: all of the mean 2 mm."""
+    if sizes == "1:2":
+        return 5 / 3, 10 / 3, '{ kind = "two", small_share = 0.5, by = "mass" }'
+    return 2 * (1 - float(sizes)), 2 * (1 + float(sizes)), None
+
+
+def plan_of(inertial):
+    """That of this I, or of the nearest."""
+    return PLAN[min(PLAN, key=lambda i: abs(math.log(i / inertial)))]
+
+
+def overrides(r):
+    """Options of `drumlin run` that turn the scene into this run."""
+    step, forget, strain, snapshots = plan_of(r["I"])
+    rate = r["I"] / INERTIAL_TIME
+    smallest, largest, distribution = diameters(r["sizes"])
+    height = (100 if distribution else 62) * r["count"] / 400
+    values = {"seed": r["seed"], "grains.generated.count": r["count"], "grains.generated.diameter_min_mm": smallest,
+              "grains.generated.diameter_max_mm": largest, "periodic_z.z_max_mm": height, "grains.generated.region.max_mm": f"[40, {height}]",
+              "effects.friction.grain_grain": r["friction"], "effects.restitution.grain_grain": r["restitution"],
+              "solver.tolerance": 0.03 * r["tolerance_factor"], "solver.penetration_tolerance": 2e-3 * r["tolerance_factor"], "solver.check_every": 5,
+              "output.velocity_window_s": step * r["step_factor"], "output.checkpoint_every_s": 1e9}
+    for stage, length, written in ((1, forget, snapshots[0]), (2, strain, snapshots[1])):
+        values |= {f"stages.{stage}.cell.shear_rate_per_s": repr(rate), f"stages.{stage}.duration_s": repr(length / rate),
+                   f"stages.{stage}.time_step_s": step * r["step_factor"], f"stages.{stage}.snapshots": written}
+    if distribution:
+        values["grains.generated.sizes"] = distribution
+    if r["rolling_resistance"]:
+        values["effects.rolling_resistance"] = f"{{ grain_grain = {r['rolling_resistance']}, grain_wall = 0 }}"
+    return [word for key, value in values.items() for word in ("--set", f"{key}={value}")]
+
+
+def finished(folder):
+    try:
+        return json.loads((folder / "run.json").read_text())["status"] == "finished"
+    except (OSError, ValueError, KeyError):
+        return False
+
+
+def do(program, root, r):
+    folder = root / name(r)
+    if finished(folder):
+        return
+    with open(root / (name(r) + ".log"), "w") as log:
+        code = subprocess.run([program, "run", SCENE, "-o", folder, "--threads", "1", "--overwrite", *overrides(r)], stdout=log, stderr=log).returncode
+    print(name(r), "exit", code, flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program")
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--workers", type=int, default=1)
+    parser.add_argument("--first", type=int, help="only so many runs of the design")
+    arguments = parser.parse_args()
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    os.nice(10)
+    with concurrent.futures.ThreadPoolExecutor(arguments.workers) as pool:
+        list(pool.map(lambda r: do(arguments.program, arguments.folder, r), design()[:arguments.first]))
+
+
+if __name__ == "__main__":
+    main()
