@@ -33,6 +33,7 @@ install(DIRECTORY data/scenes data/rheology data/paper data/cost data/limits dat
 install(FILES data/problems/drum-300-mu-0.4-flow.h5 DESTINATION ${DRUMLIN_INSTALLED_DATA}/problems COMPONENT commands)
 install(DIRECTORY apps/costs apps/figures apps/pages DESTINATION ${DRUMLIN_INSTALLED_PACKAGE} COMPONENT commands PATTERN __pycache__ EXCLUDE)
 install(FILES docs/formats/quantities.md DESTINATION ${DRUMLIN_INSTALLED_PACKAGE}/figures COMPONENT commands)
+install(FILES data/laws/laws.csv DESTINATION ${DRUMLIN_INSTALLED_PACKAGE}/library COMPONENT commands)
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md")  # that help cites
 

@@ -14,6 +14,7 @@
   row(export_command) \
   row(history_command) \
   row(calibrate_command) \
+  row(law_command) \
   row(flow_command) \
   row(compare_command) \
   row(pair_command) \

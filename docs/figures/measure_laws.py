@@ -71,6 +71,7 @@ def measured(program, run, r):
     pressure = law_runs.PRESSURE / (record["scales"]["density_kg_m3"] * 9.81 * record["scales"]["length_m"])
     return {"run": run.name, **r, "revision": record["provenance"]["revision"], "cpu_seconds": record["cpu_seconds"], "steps": record["steps"],
             "unconverged_steps": record["unconverged_steps"], "rate": rate, "pressure": pressure,
+            "strain": rate * (columns["time"][-1] - columns["time"][forget - 1]),
             "blocks": {key: [float(values[b].mean()) for b in blocks] for key, values in columns.items() if key != "time"},
             "start": {"strain": ((columns["time"][:forget] - columns["time"][0]) * rate + rate * (columns["time"][1] - columns["time"][0])).tolist(),
                       "nu": columns["nu"][:forget].tolist(), "contacts": columns["contacts"][:forget].tolist()},

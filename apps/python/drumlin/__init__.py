@@ -7,8 +7,8 @@ _HOMES = {"_drumlin": ["version"], "commands": ["command", "compare", "make_pair
           "contacts": ["ContactSolution", "contact_residual", "contact_solvers", "solve_contacts"],
           "errors": ["DrumlinError", "InputError", "Interrupted", "IoError", "Killed", "NotConvergedError"],
           "sweeping.executors": ["Outcome", "run_all"], "files": ["Arrays", "Folder", "read", "value_of"],
-          "laws": ["CalibratedLaw", "Law", "calibrate"], "scenes": ["Simulation", "resolved", "toml_of"], "sweeping.sweep": ["SweptRun", "sweep"],
-          "plot": [], "study": []}
+          "laws": ["CalibratedLaw", "Law", "calibrate"], "library.table": ["LibraryLaw", "law"], "scenes": ["Simulation", "resolved", "toml_of"],
+          "sweeping.sweep": ["SweptRun", "sweep"], "plot": [], "study": []}
 __all__ = sorted(["errors", "plot", "study"] + [name for names in _HOMES.values() for name in names])
 
 
