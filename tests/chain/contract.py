@@ -15,7 +15,7 @@ from streams import by_shell, without_reader
 # What makes a call of a command short, or a call at all; a command that is not named here needs nothing but its options.
 MORE = {"run": SHORT_RUN, "measure": ["--parts", "none"], "export": ["--vtu", "--snapshots", "last"], "cost": ["--effects", "--seconds", "0.01"],
         "calibrate": ["--accept-unsteady", "--draws", "16", "--from", "profiles"], "compare": ["--accept-unsteady"], "flow": ["--set", "output.figures=false"],
-        "pair": ["--scene-only"]}
+        "pair": ["--scene-only"], "law": ["--extrapolate"]}
 
 
 class Contract:
