@@ -1,5 +1,7 @@
 #include "particles/import/description.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -20,24 +22,33 @@ void check_together(const ImportDescription& description, const Document& docume
   };
   if (description.drum && description.periodic_x)
     refuse("periodic_x", "appears beside a drum", "one of the two");
-  const auto* lammps = std::get_if<LammpsSource>(&description.source);
-  const auto& grains = lammps ? lammps->grains : std::get<CsvSource>(description.source).grains;
-  if (grains.empty()) refuse(lammps ? "lammps.grains" : "csv.grains", "names no file", "at least one");
+  const auto* csv = std::get_if<CsvSource>(&description.source);
+  const auto* files = std::get_if<FilesSource>(&description.source);
+  const std::string table = csv ? "csv." : files ? "files." : "lammps.";
+  if (!csv && !files) files = &std::get<LammpsSource>(description.source);
+  const auto& grains = csv ? csv->grains : files->grains;
+  if (grains.empty()) refuse(table + "grains", "names no file", "at least one");
   if (description.grains.may_change && description.grains.velocities != ImportedVelocities::given)
     refuse("grains.velocities", "is displacements of grains that come and go",
            "given, or may_change = false");
-  if (const auto* csv = std::get_if<CsvSource>(&description.source); csv && !csv->heading.empty()) {
+  const bool spheres = description.dimensions == 3;
+  if (description.drum && spheres) refuse("drum", "appears beside dimensions = 3", "discs in a drum");
+  if (description.periodic_y && !spheres) refuse("periodic_y", "appears without dimensions = 3", "spheres");
+  if (csv && !csv->heading.empty()) {
     if (csv->columns.empty()) refuse("csv.heading", "appears without columns", "csv.columns beside it");
     if (std::count(csv->heading.begin(), csv->heading.end(), "count") != 1)
       refuse("csv.heading", "does not say how many grains follow", "\"count\" once among its names");
   }
-  if (!lammps || lammps->contacts.empty()) return;
-  if (lammps->contact_ids.size() != 2)
-    refuse("lammps.contact_ids", "is needed by the contacts", "two names of columns");
-  if (lammps->contact_forces.size() != 2)
-    refuse("lammps.contact_forces", "is needed by the contacts", "two names of columns");
-  if (!lammps->depth_m)
-    refuse("lammps.depth_m", "is needed by the contacts: forces count per metre of depth", "a number");
+  if (!files || files->contacts.empty()) return;
+  const bool dumps = table == "lammps.";
+  if (dumps && files->contact_ids.size() != 2)
+    refuse(table + "contact_ids", "is needed by the contacts", "two names of columns");
+  const std::size_t axes = spheres ? 3 : 2;
+  if (dumps && files->contact_forces.size() != axes && files->contact_forces.size() != 2 * axes)
+    refuse(table + "contact_forces", "is needed by the contacts",
+           fmt::format("{} names of columns, or {} of two parts", axes, 2 * axes));
+  if (!files->depth_m && !spheres)
+    refuse(table + "depth_m", "is needed by the contacts: forces count per metre of depth", "a number");
 }
 
 /// Whether a text is a pattern's, "*" standing for any text. The text between two stars goes where it fits

@@ -29,19 +29,24 @@ constexpr auto names_of(ForceOn) { return std::array{"first", "second"}; }
 enum class ImportedVelocities { given, displacements };
 constexpr auto names_of(ImportedVelocities) { return std::array{"given", "displacements"}; }
 
-/// Text dumps of LAMMPS and of programs that write its format.
-struct LammpsSource {
+/// Files of any format that is known by its first bytes.
+struct FilesSource {
   std::vector<std::string> grains;
+  std::vector<std::string> columns;  ///< names behind attrs of Yade's text
   DumpPlane plane = DumpPlane::xy;
-  std::optional<double> step_s;
+  std::optional<double> step_s, interval_s;
   std::optional<double> length_unit_m, time_unit_s, mass_unit_kg;
   std::vector<double> wall_types;
   std::vector<std::string> contacts;
   std::vector<std::string> contact_ids;
   std::vector<std::string> contact_forces;
+  std::vector<double> wall_ids;
   ForceOn force_on = ForceOn::first;
   std::optional<double> depth_m;
 };
+
+/// The same, of text dumps of LAMMPS and of programs that write its format.
+struct LammpsSource : FilesSource {};
 
 struct ImportedGrains {
   double density_kg_m3 = 0;
@@ -64,11 +69,12 @@ struct ImportedPeriod {
 struct ImportDescription {
   std::string title;
   bool reduced = false;
-  std::variant<CsvSource, LammpsSource> source;
+  int dimensions = 2;  ///< 3: spheres
+  std::variant<CsvSource, LammpsSource, FilesSource> source;
   ImportedGrains grains;
   Gravity gravity;
   std::optional<ImportedDrum> drum;
-  std::optional<ImportedPeriod> periodic_x;
+  std::optional<ImportedPeriod> periodic_x, periodic_y;
   std::optional<double> time_step_s;
 };
 

@@ -10,7 +10,7 @@ from drumlin.importing.run import Import
 TABLES = {"grains": ["grains.csv"], "columns": [], "heading": [], "contacts": []}
 # d = 9.81 m: the unit of time is 1 s.
 DUMPS = {"grains": ["dump.a"], "plane": "xy", "step_s": 0.5, "wall_types": [], "contacts": [], "contact_ids": [], "contact_forces": [],
-         "force_on": "first"}
+         "wall_ids": [], "force_on": "first"}
 WITH_CONTACTS = {"contacts": ["contacts"], "contact_ids": ["a", "b"], "contact_forces": ["fx", "fy"], "depth_m": 1.0}
 NAMES = "time_s,id,x_m,z_m,v_x_m_s,v_z_m_s,radius_m\n"
 COLUMNS = "id x y radius vx vy"
@@ -145,7 +145,7 @@ GOOD = NAMES + "# a comment\n1,1,0,0,0,0,0.5\n"
     ("time_s,x_m,z_m,v_x_m_s,v_z_m_s,radius_m\n1e200,0,0,0,0,0.5\n", "time_s: is 3.13e+200 sqrt(d/g)"),
     (GOOD + "1,2,0,0,0,0,0.5\n", "grains.csv:4: x_m, z_m: grains 1 and 2 are in one place"),
     ("time_s,x_m,z_m,radius_m\n0,0,0,1\n", "v_x_m_s: no such column (allowed: one, or grains.velocities"),
-    (b"\x1f\x8b\x08", "grains.csv: is compressed"), (b"\xff\xfea\0", "grains.csv: is text in UTF-16"),
+    (b"\x1f\x8b\x08", "grains.csv: the compressed file is cut off"), (b"\x28\xb5\x2f\xfd", "grains.csv: is compressed (zstd)"), (b"\xff\xfea\0", "grains.csv: is text in UTF-16"),
     ("# nothing\n", "holds no line of column names"), (NAMES, "hold no snapshot"), ("", "holds no line of column names")])
 def test_tables_are_refused_with_file_and_line(folder, text, message):
     assert message in folder.write(csv=text).refusal("csv")
@@ -203,7 +203,7 @@ def test_the_second_axis_of_a_dump_is_up_and_its_spin_anticlockwise(folder):
                  + frame(8, COLUMNS, ["1 0 0 5 0 0", "2 0 9 5 0 0"]))
     report, (s, last) = folder.imported("lammps")
     assert [s["time"], *(s["grains/" + name][1] for name in ("x", "z", "v_z", "spin"))] == pytest.approx([2, 1, 2, 4 / 9.81, -0.7])
-    assert "grains/spin" not in last and report.unused_columns == ["type", "vz"]
+    assert "grains/spin" not in last and report.unused_columns == ["type"]
     # Upright, y points away from the onlooker.
     folder.write(dump=frame(4, "id x y z vx vz radius omegay", ["1 0 0 9.81 0 1 4 0.7"]))
     _, (s,) = folder.imported("lammps", {"plane": "xz"})
@@ -214,6 +214,9 @@ def test_scaled_coordinates_are_put_into_their_box(folder):
     folder.write(dump=frame(0, "id xs ys diameter vx vy", ["1 0.75 0.5 9.81 0 0"]))
     _, (s,) = folder.imported("lammps", {"length_unit_m": 2.0})
     assert [s["grains/" + name][0] * 9.81 for name in ("x", "z", "radius")] == pytest.approx([10, 40, 9.81])  # 5 units of 2 m
+    folder.write(dump=tilted("id xs ys diameter vx vy", "1 0.5 0.5 9.81 0 0"))  # x 0 to 2, y 0 to 2, tilted by 1
+    _, (s,) = folder.imported("lammps")
+    assert [s["grains/" + name][0] * 9.81 for name in ("x", "z")] == pytest.approx([1.5, 1])
 
 
 def test_atoms_of_a_wall_are_no_grains_and_their_contacts_are_the_walls(folder):
@@ -266,7 +269,7 @@ def test_a_pour_begins_with_its_first_grain(folder):
     (frame(1, "id x y radius vx", ["1 0 0 1 0"]), "vy: no such column"),
     (frame(1, "id x y diameter vx vy", ["1 0 0 0 0 0"]), "dump.a:10: diameter: is not above 0"),
     (frame(1, COLUMNS, ["1 0 0 1 0 0", "2 0 0 1 1 0"]), "dump.a:11: x, y: grains 1 and 2 are in one place"),
-    (tilted("id xs ys radius vx vy", "1 0 0 1 0 0"), "dump.a:9: xs: is scaled by a tilted box"),
+    (tilted("id xs y radius vx vy", "1 0 0 1 0 0"), "dump.a:10: xs: is scaled by a tilted box (allowed: ys beside it)"),
     (frame(2, COLUMNS, ["1 0 0 1 0 0"]) + frame(1, COLUMNS, ["1 0 0 1 0 0"]), "times that ascend"),
     (frame(1, "id x y z radius vx vy", ["1 0 0 0 0.1 0 0", "2 0 0 5 0.1 0 0"]), "lie in space"),
     (frame(1, COLUMNS, ["1 0 0 1 0 0"])[:60], "ends within a frame"),

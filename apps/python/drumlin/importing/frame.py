@@ -1,6 +1,7 @@
 """The numbers of one instant as another program wrote them, with the place of each row."""
 
 import dataclasses
+import typing
 
 import numpy as np
 
@@ -17,15 +18,35 @@ class Scales:
     length_m: float
     time_s: float
     density_kg_m3: float
+    axes: typing.ClassVar = "xz"
 
     def unit_of(self, quantity):
-        """Of a "number", "time", "length", "velocity", "rate" or "force" (per metre of depth)."""
+        """Of a "number", "time", "length", "velocity", "rate" or "force" (of discs per metre of depth)."""
         velocity = self.length_m / self.time_s
         return {"number": 1.0, "time": self.time_s, "length": self.length_m, "velocity": velocity, "rate": 1 / self.time_s,
-                "force": self.density_kg_m3 * velocity * velocity * self.length_m}[quantity]
+                "force": self.density_kg_m3 * velocity * velocity * self.length_m ** (len(self.axes) - 1)}[quantity]
+
+
+class SphereScales(Scales):
+    """Of spheres, whose forces are not per metre."""
+
+    axes: typing.ClassVar = "xyz"
 
 
 SI = Scales(1.0, 1.0, 1.0)
+
+
+@dataclasses.dataclass
+class Cell:
+    """The box of a frame, m: columns of `edges` are its edges along the axes of the file, `periodic` along which it repeats; `origin`: its lower corner."""
+
+    origin: np.ndarray
+    edges: np.ndarray
+    periodic: tuple
+
+    @classmethod
+    def upright(cls, low, high, periodic):
+        return cls(np.array(low, float), np.diag(np.array(high, float) - np.array(low, float)), tuple(periodic))
 
 
 @dataclasses.dataclass
@@ -39,9 +60,10 @@ class Column:
 
 @dataclasses.dataclass
 class Frame:
-    """Columns by the names of docs/formats/import.md without their units: id, x, z, v_x, v_z, radius, spin_clockwise, spin_anticlockwise, type, third of
-    grains; i, j, normal_x, normal_z, f_n, f_t, f_x, f_z of contacts. `lines`: of each row, `first_line`: where the instant begins; `words`: what the file
-    calls its columns, also those that it lacks; `period_m`: along x, where the file says that it is periodic."""
+    """Columns by the names of docs/formats/import.md without their units: id, x, y, z, v_x, v_y, v_z, radius, spin_clockwise, spin_anticlockwise, omega_x,
+    omega_y, omega_z, type, third of grains; i, j, normal_x, normal_y, normal_z, f_n, f_t, f_x, f_y, f_z of contacts. `lines`: of each row, `first_line`:
+    where the instant begins; `words`: what the file calls its columns, also those that it lacks; `cell`: where the file has one; `in_file_axes`: the axes
+    are those of the file (view.py), not of the description."""
 
     file: str
     lines: np.ndarray
@@ -51,7 +73,15 @@ class Frame:
     words: dict
     time: float = None
     time_in_si: bool = True
-    period_m: float = None
+    cell: Cell = None
+    in_file_axes: bool = False
+
+    @property
+    def period_m(self):
+        """Along x, of a box that is periodic along x and not tilted; else None."""
+        cell = self.cell
+        upright = cell and not np.any(cell.edges - np.diag(np.diag(cell.edges)))
+        return float(cell.edges[0, 0]) if upright and cell.periodic[0] else None
 
     def word(self, name):
         return self.words.get(name, name)
@@ -62,6 +92,7 @@ class Frame:
             raise refusal(self.file, self.first_line, self.word(name), f"no such column among {self.all_names}", "docs/formats/import.md")
         column = self.columns[name]
         values = column.values / scales.unit_of(column.quantity) if column.in_si else column.values
+        self.require(np.isfinite(values), self.word(name), lambda row: f"is {column.values[row]}", "finite numbers")
         if column.quantity != "number":
             self.require(np.abs(values) <= LARGEST, self.word(name),
                          lambda row: f"is {values[row]:.3g} of the unit made of d, sqrt(d/g) and rho0", f"up to {LARGEST:g} of it")
@@ -86,20 +117,50 @@ class Frame:
             self.refuse(key, what(first) if callable(what) else what, allowed, first if rows is None else rows[first])
 
 
+class Rows:
+    """Places of the rows of a frame of a binary file, as messages name them."""
+
+    def __init__(self, frame, count):
+        self.frame, self.count = frame, count
+
+    def __len__(self):
+        return self.count
+
+    def __getitem__(self, row):
+        return f"{self.frame}, row {row + 1}"
+
+
+def binary_frame(file, number, count, columns, **more):
+    """A frame of a file that has no lines: the `number`-th of the file, from 0."""
+    place = f"frame {number}"
+    return Frame(file, Rows(place, count), place, columns, ", ".join(columns), {}, in_file_axes=True, **more)
+
+
+class BinaryFile:
+    """The file that a reader of binary frames has open; `number`: of the frame, for messages."""
+
+    unended = False
+
+    def __init__(self, path):
+        self.path, self.number = path, 0
+
+
 class TextFrames:
-    """The frames of text files, to be iterated over. `unused`: names of columns that told nothing; `cut_off`: where the last frame ends too early and was
-    left out, as a killed program leaves it; else empty. A class of a format gives frames_of(text)."""
+    """The frames of files, to be iterated over. `unused`: names of columns that told nothing; `cut_off`: where the last frame ends too early and was
+    left out, as a killed program leaves it; else empty. A class of a format gives frames_of(text), and opens other files than text by its own `opened`."""
+
+    opened = TextFile
 
     def __init__(self, files):
         self.files, self.unused, self.cut_off, self.count, self.first_line = files, set(), "", 0, None
 
     def frames_of(self, text):
-        """The frames of a TextFile. `count`: how many there are so far, of all files."""
+        """The frames of an open file. `count`: how many there are so far, of all files."""
         raise NotImplementedError
 
     def __iter__(self):
         for number, file in enumerate(self.files, 1):
-            text = TextFile(file)
+            text = self.opened(file)
             frames = self.frames_of(text)
             while True:
                 try:

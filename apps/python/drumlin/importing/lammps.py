@@ -4,19 +4,12 @@ import dataclasses
 
 import numpy as np
 
-from .frame import Column, Frame, TextFrames
+from .frame import Cell, Column, Frame, TextFrames
 from .text import Columns, CutOff
+from .units import Units, axes_of_files, force_unit
 
+MORE = " of a second set"
 SAME = 1e-6  # relative: of the digits that a user writes
-
-
-@dataclasses.dataclass
-class Units:
-    """What one unit of the dump is in SI."""
-
-    length_unit_m: float = 1.0
-    time_unit_s: float = 1.0
-    mass_unit_kg: float = 1.0
 
 
 STYLES = {"si": Units(), "cgs": Units(1e-2, 1.0, 1e-3), "micro": Units(1e-6, 1e-6, 1e-15), "nano": Units(1e-9, 1e-9, 1e-21)}
@@ -24,30 +17,41 @@ STYLES = {"si": Units(), "cgs": Units(1e-2, 1.0, 1e-3), "micro": Units(1e-6, 1e-
 
 @dataclasses.dataclass
 class Meaning:
-    """Where a column goes, what one of its units is in SI, what is added to it; `scaled`: by the box."""
+    """Where a column goes, what one of its units is in SI, and the axis of the box that scales it."""
 
     name: str
     quantity: str = "number"
     factor: float = 1.0
-    offset: float = 0.0
-    scaled: bool = False
+    scaled: int = None
 
 
 class Box:
-    """Lower and upper bound along x, y, z; where it is tilted, those around it."""
+    """Lower corner, edges as columns, in units of the dump, and along which of them it is periodic."""
 
     def __init__(self, text, item):
-        self.bounds, self.tilted, self.periodic_x = [], False, item.split()[-3] == "pp"
-        for _ in range(3):
+        bounds, tilts = [], []
+        self.periodic = tuple(word == "pp" for word in item.split()[-3:])
+        for axis in range(3):
             words = text.line_below("BOX BOUNDS").split()
             if not 2 <= len(words) <= 4:
                 text.refuse("BOX BOUNDS", f"holds {len(words)} numbers", "2 to 4")
             # Of two numbers, of three where it is tilted along an axis, of four where it lies anyhow.
-            numbers = [text.number_from(word, "BOX BOUNDS") for word in words] if len(words) < 4 else [0.0, 0.0, 1.0]
-            self.tilted |= numbers[2:] not in ([], [0.0])
+            if len(words) == 4:
+                text.refuse("BOX BOUNDS", "are those of a box that lies anyhow", "a box that LAMMPS calls orthogonal or triclinic")
+            numbers = [text.number_from(word, "BOX BOUNDS") for word in words]
             if not numbers[0] <= numbers[1]:
                 text.refuse("BOX BOUNDS", "are not in their order", "lower, then upper")
-            self.bounds.append(numbers[:2])
+            bounds.append(numbers[:2])
+            tilts.append(numbers[2] if len(words) == 3 else 0.0)
+        xy, xz, yz = tilts
+        low, high = np.array(bounds).T
+        # Those of a tilted box are those of the box around it (LAMMPS, Howto triclinic).
+        low = low - [min(0.0, xy, xz, xy + xz), min(0.0, yz), 0.0]
+        high = high - [max(0.0, xy, xz, xy + xz), max(0.0, yz), 0.0]
+        self.low, self.edges = low, np.diag(high - low) + [[0, xy, xz], [0, 0, yz], [0, 0, 0]]
+
+    def cell(self, metre):
+        return Cell(self.low * metre, self.edges * metre, self.periodic)
 
 
 class Dump(TextFrames):
@@ -99,11 +103,23 @@ class Dump(TextFrames):
             text.refuse("TIMESTEP", "counts steps whose length is not known", "ITEM: TIME in each frame, or lammps.step_s in the description")
         time = told["TIME"] * units.time_unit_s if "TIME" in told else told["TIMESTEP"] * self.source["step_s"]
         frame = Frame(text.path, None, self.first_line, {}, item[len(self.rows_item):].strip(),
-                      self.words | ({"time": "TIME"} if "TIME" in told else {}), time)
-        if box and box.periodic_x and not box.tilted:
-            frame.period_m = (box.bounds[0][1] - box.bounds[0][0]) * units.length_unit_m
+                      self.words | ({"time": "TIME"} if "TIME" in told else {}), time, in_file_axes=True)
+        frame.cell = box.cell(units.length_unit_m) if box else None
         self._read_rows(text, int(told["NUMBER OF ..."]), box, units, frame)
         return frame
+
+    @staticmethod
+    def _put_into_box(text, box, scaled, frame, metre):
+        """Scaled coordinates as lengths: an axis needs those of the edges that lie across it."""
+        lengths = {}
+        for axis in scaled:
+            needed = [edge for edge in range(3) if box.edges[axis, edge] != 0 or edge == axis]
+            for edge in needed:
+                if edge not in scaled:
+                    text.refuse(f"{'xyz'[axis]}s", "is scaled by a tilted box", f"{'xyz'[edge]}s beside it")
+            lengths[axis] = metre * (box.low[axis] + sum(box.edges[axis, edge] * scaled[edge].values for edge in needed))
+        for axis, values in lengths.items():
+            scaled[axis].values = values
 
     def _units(self, text, style):
         """Of the description and of the file, which must not contradict each other."""
@@ -128,10 +144,8 @@ class Dump(TextFrames):
             if not meaning or any(meaning.name == other.name for other in found.values()):
                 self.unused.add(name)
                 continue
-            if meaning.scaled and not box:
+            if meaning.scaled is not None and not box:
                 text.refuse(name, "is scaled by a box that this frame does not give", "ITEM: BOX BOUNDS before it")
-            if meaning.scaled and box.tilted:
-                text.refuse(name, "is scaled by a tilted box", "coordinates that are not")
             found[k] = meaning
             frame.words[meaning.name] = name
         rows = text.so_many_rows(Columns(names, list(found), " ", comments=False), count,
@@ -141,7 +155,9 @@ class Dump(TextFrames):
             text.refuse("", "ends within a line", kind=CutOff)
         frame.lines, numbers = rows
         for values, meaning in zip(numbers, found.values()):
-            frame.columns[meaning.name] = Column(values * meaning.factor + meaning.offset, meaning.quantity)
+            frame.columns[meaning.name] = Column(values * meaning.factor, meaning.quantity)
+        self._put_into_box(text, box, {meaning.scaled: frame.columns[meaning.name] for meaning in found.values() if meaning.scaled is not None}, frame,
+                           units.length_unit_m)
         if second := frame.columns.pop("second radius", None):
             radius = frame.columns["radius"].values
             frame.require(np.abs(radius - second.values) <= SAME * np.abs(radius), "radius, diameter",
@@ -149,16 +165,11 @@ class Dump(TextFrames):
 
 
 class Grains(Dump):
-    """Dumps of the style custom. The axes of the plane, the one across it, and the component of the angular velocity that turns in it: with x to the right
-    and y up it points at the onlooker and anticlockwise is positive; with z up it points away."""
+    """Dumps of the style custom."""
 
     def __init__(self, files, source):
-        upright = source["plane"] == "xz"
-        self.axes, self.clockwise = {"x": "x", "z" if upright else "y": "z", "y" if upright else "z": "third"}, 1 if upright else -1
-        up, across = list(self.axes)[1:]
-        self.spin, self.v_z = "omega" + across, "v" + up
         super().__init__(files, source, "ITEM: ATOMS",
-                         {"time": "TIMESTEP", "z": up, "v_x": "vx", "v_z": self.v_z, "radius": "radius or diameter"}, weighs=False)
+                         {"time": "TIMESTEP", "v_x": "vx", "v_y": "vy", "v_z": "vz", "radius": "radius or diameter"}, weighs=False)
 
     def meaning(self, name, box, units):
         metre, second = units.length_unit_m, units.time_unit_s
@@ -166,34 +177,32 @@ class Grains(Dump):
             return Meaning(name)
         if name in ("radius", "diameter"):
             return Meaning("radius", "length", metre if name == "radius" else metre / 2)
-        if name == self.spin:
-            return Meaning("spin_clockwise", "rate", self.clockwise / second)
-        if name in ("vx", self.v_z):
-            return Meaning("v_x" if name == "vx" else "v_z", "velocity", metre / second)
-        target, letters = self.axes.get(name[:1]), name[1:]
-        if not target or letters not in ("", "u", "s", "su"):
+        if name in ("omegax", "omegay", "omegaz"):
+            return Meaning("omega_" + name[-1], "rate", 1 / second)
+        if name in ("vx", "vy", "vz"):
+            return Meaning("v_" + name[-1], "velocity", metre / second)
+        axis, letters = name[:1], name[1:]
+        if not axis or axis not in "xyz" or letters not in ("", "u", "s", "su"):
             return None
-        if letters in ("", "u"):
-            return Meaning(target, "length", metre)
-        low, high = box.bounds["xyz".index(name[0])] if box else (0.0, 0.0)
-        return Meaning(target, "length", (high - low) * metre, low * metre, True)
+        return Meaning(axis, "length", metre) if letters in ("", "u") else Meaning(axis, "length", 1.0, "xyz".index(axis))
 
 
 class Contacts(Dump):
-    """Dumps of the style local."""
+    """Dumps of the style local. Forces of a second set of columns, as the tangential part of LAMMPS, are added to those of the first."""
 
     def __init__(self, files, source):
-        super().__init__(files, source, "ITEM: ENTRIES", {"time": "TIMESTEP"} | dict(zip(("i", "j", "f_x", "f_z"), self.names_in(source))), weighs=True)
-
-    @staticmethod
-    def names_in(source):
-        return source["contact_ids"] + source["contact_forces"]
+        axes = axes_of_files(source)
+        self.targets = ["i", "j"] + ["f_" + axis for axis in axes] + [f"f_{axis}{MORE}" for axis in axes]
+        self.names = source["contact_ids"] + source["contact_forces"]
+        super().__init__(files, source, "ITEM: ENTRIES", {"time": "TIMESTEP"} | dict(zip(self.targets, self.names)), weighs=True)
 
     def meaning(self, name, box, units):
-        names = self.names_in(self.source)
-        if name not in names:
+        if name not in self.names:
             return None
-        sign = 1 if self.source["force_on"] == "first" else -1
-        force = sign * units.mass_unit_kg * units.length_unit_m / (units.time_unit_s * units.time_unit_s) / self.source["depth_m"]
-        place = names.index(name)
-        return Meaning(("i", "j", "f_x", "f_z")[place], *(("force", force) if place > 1 else ()))
+        target = self.targets[self.names.index(name)]
+        return Meaning(target, "force", force_unit(self.source, units)) if target[0] == "f" else Meaning(target)
+
+    def _read_rows(self, text, count, box, units, frame):
+        super()._read_rows(text, count, box, units, frame)
+        for name in [name for name in frame.columns if name.endswith(MORE)]:
+            frame.columns[name.removesuffix(MORE)].values += frame.columns.pop(name).values

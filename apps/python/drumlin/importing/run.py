@@ -8,11 +8,18 @@ import numpy as np
 from ..errors import InputError
 from . import contacts, grains
 from .frame import LARGEST, Scales
-from .frames import READERS
+from .frames import SOURCES, reader_of
+from .view import in_axes_of_description
 
+OTHER_UNIT = 2.0
 SAME_TIME = 1e-9  # relative: times of a table of few digits are compared as they are printed
-NO_CONTACTS = {f"contacts/{name}": np.zeros(0, kind) for name, kind in
-               (("i", "i4"), ("j", "i4"), ("normal_x", "f4"), ("normal_z", "f4"), ("impulse_n", "f8"), ("impulse_t", "f8"))}
+
+
+def no_contacts(axes):
+    """The datasets of a snapshot without any."""
+    forces = ["impulse_n", "impulse_t"] if axes == "xz" else ["force_" + axis for axis in axes]
+    kinds = {"i": "i4", "j": "i4"} | {"normal_" + axis: "f4" for axis in axes} | {name: "f8" for name in forces}
+    return {f"contacts/{name}": np.zeros(0, kind) for name, kind in kinds.items()}
 
 
 @dataclasses.dataclass
@@ -37,8 +44,8 @@ class Report:
 class ContactFrames:
     """The frame of contacts that belongs to a time. Frames without a time belong one to one; an instant that frames with times do not name has none."""
 
-    def __init__(self, frames):
-        self.frames, self.timed = iter(frames), False
+    def __init__(self, frames, source):
+        self.frames, self.timed = (in_axes_of_description(frame, source) for frame in frames), False
         self.waiting = next(self.frames, None)
 
     def at(self, time, of_grains, scales):
@@ -63,6 +70,15 @@ class ContactFrames:
         """Without grains there are none; a frame that says so belongs to no snapshot."""
         if self.waiting and not len(self.waiting.lines) and self.waiting.time in (None, without_grains.time):
             self.waiting = next(self.frames, None)
+
+
+def _check_units(frame, bodies, before, bodies_before):
+    """Grains that are all larger or smaller than in the snapshot before are told in another unit."""
+    if not {"radius"} <= frame.columns.keys() & before.columns.keys():
+        return
+    now, last = (float(np.mean(of.columns["radius"].values[rows])) for of, rows in ((frame, bodies.grains), (before, bodies_before.grains)))
+    if not 1 / OTHER_UNIT < now / last < OTHER_UNIT:
+        frame.refuse(frame.word("radius"), f"the mean is {now:.4g}, in the snapshot before {last:.4g}", "one unit in all of them")
 
 
 def _check_sequence(frame, bodies, before, bodies_before, scales, may_change):
@@ -91,12 +107,13 @@ class Import:
     """The snapshots of a description with all its defaults, to be iterated over; `report` is whole at their end. `files`: of grains and of contacts."""
 
     def __init__(self, description, files):
-        kind = next(kind for kind in READERS if kind in description)
-        self.description, self.report = description, Report(kind)
-        of_grains, of_contacts = READERS[kind]
-        self.source = description[kind]
-        self.frames = of_grains(files["grains"], self.source)
-        self.contact_frames = of_contacts(files["contacts"], self.source) if files["contacts"] else None
+        kind = next(kind for kind in SOURCES if kind in description)
+        self.description = description
+        self.source = description[kind] | {"dimensions": description.get("dimensions", 2)}
+        reader = reader_of(kind, files["grains"])
+        self.report = Report(reader.name)
+        self.frames = reader.grains(files["grains"], self.source)
+        self.contact_frames = reader_of(kind, files["contacts"]).contacts(files["contacts"], self.source) if files["contacts"] else None
 
     def _leave_out(self, where, why):
         self.report.left_out.append(f"{where}: {why}")
@@ -104,7 +121,7 @@ class Import:
     def _wanted_frames(self, matching):
         """(frame, bodies) of the frames that become snapshots, with the scales of the first in the report."""
         before = bodies_before = None
-        for frame in self.frames:
+        for frame in (in_axes_of_description(frame, self.source) for frame in self.frames):
             where = f"{frame.file}:{frame.first_line}"
             if matching and not matching.waiting and self.contact_frames.cut_off:
                 self._leave_out(where, "its contacts are cut off")
@@ -122,6 +139,7 @@ class Import:
                 self.report.scales = grains.scales_for(self.description, frame, bodies)
             _checked_time(frame, self.report.scales)
             if before:
+                _check_units(frame, bodies, before, bodies_before)
                 _check_sequence(frame, bodies, before, bodies_before, self.report.scales, self.description["grains"]["may_change"])
             before, bodies_before = frame, bodies
             yield frame, bodies
@@ -130,20 +148,21 @@ class Import:
         """Without its velocities."""
         description, scales, drum = self.description, self.report.scales, self.description.get("drum")
         s = grains.still_parts(description, scales) | {"time": frame.time_in(scales)}
-        turned_before = math.copysign(2 * math.pi * drum["turns_before"], drum["speed_rpm"]) if drum else 0.0
-        s["wall/angle"] = turned_before + s["wall/spin"] * (s["time"] - first_time)
+        if "wall/spin" in s:
+            turned_before = math.copysign(2 * math.pi * drum["turns_before"], drum["speed_rpm"]) if drum else 0.0
+            s["wall/angle"] = turned_before + s["wall/spin"] * (s["time"] - first_time)
         grains.add_grains(s, frame, bodies, scales)
-        if not drum and "periodic_x" not in description:
+        if not drum and "periodic_x" not in description and scales.axes == "xz":
             self.report.unused_period_m = frame.period_m
         if matching:
-            s |= NO_CONTACTS
+            s |= no_contacts(scales.axes)
             of_time = matching.at(s["time"], frame, scales)
             if of_time:
                 contacts.add_contacts(s, of_time, frame, bodies, scales)
         return s
 
     def __iter__(self):
-        report, matching = self.report, ContactFrames(self.contact_frames) if self.contact_frames else None
+        report, matching = self.report, ContactFrames(self.contact_frames, self.source) if self.contact_frames else None
         moved, before, first_time = self.description["grains"]["velocities"] == "displacements", None, None
         for frame, bodies in self._wanted_frames(matching):
             first_time = frame.time_in(report.scales) if first_time is None else first_time
@@ -151,14 +170,14 @@ class Import:
             if not moved:
                 grains.add_velocities(s, frame, bodies, report.scales)
             elif before:
-                grains.add_displacements(s, before)
+                grains.add_displacements(s, before, report.scales.axes)
             before, has_velocities = s, not moved or bool(before)
             if not has_velocities:
                 self._leave_out(f"{frame.file}:{frame.first_line}", "has no snapshot before, and so no velocities")
                 continue
             report.snapshots += 1
             s["step"] = report.snapshots
-            report.grains, report.with_spin = len(s["grains/x"]), "grains/spin" in s
+            report.grains, report.with_spin = len(s["grains/x"]), bool({"grains/spin", "grains/omega_y"} & s.keys())
             report.contacts += len(s.get("contacts/i", ()))
             report.last_time_s = s["time"] * report.scales.time_s
             if report.snapshots == 1:

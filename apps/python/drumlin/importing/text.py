@@ -1,7 +1,9 @@
 """A text file of another program, line by line or many rows of numbers at once. Dumps are too large to be held whole."""
 
+import gzip
 import re
 import warnings
+import zlib
 
 import numpy as np
 
@@ -9,6 +11,7 @@ from ..errors import InputError
 
 PIECE, LONGEST_LINE = 1 << 18, 1 << 20  # bytes
 BLANKS = " \t\r"
+GZIP = b"\x1f\x8b"
 FIELD = re.compile(r'(?:"((?:[^"]|"")*)"[ \t\r]*|([^,]*)),')  # of a line with a comma behind it
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
 
@@ -60,7 +63,7 @@ class Columns:
 
 
 class TextFile:
-    """The lines of a file of any size, numbered from 1; `number` is that of the line read last. Refused: a missing or compressed file, UTF-16."""
+    """The lines of a file of any size, numbered from 1, of text or of text in gzip; `number` is that of the line read last. Refused: a missing file, zstd, UTF-16."""
 
     def __init__(self, path):
         self.path, self.number = path, 0
@@ -70,11 +73,23 @@ class TextFile:
         except FileNotFoundError as error:
             raise refusal(path, 0, "", "no such file") from error
         start = self._stream.read(4)
-        if start[:2] == b"\x1f\x8b" or start == b"\x28\xb5\x2f\xfd":
-            raise refusal(path, 0, "", "is compressed (gzip or zstd)", "text: gunzip or unzstd it first")
+        if start[:2] == GZIP:
+            self._stream.close()
+            self._stream = gzip.open(path, "rb")
+            start = self._piece(4)
+        if start == b"\x28\xb5\x2f\xfd":
+            raise refusal(path, 0, "", "is compressed (zstd)", "text or gzip: unzstd it first")
         if start[:2] in (b"\xff\xfe", b"\xfe\xff") or start == b"\0\0\xfe\xff":
             raise refusal(path, 0, "", "is text in UTF-16 or UTF-32", "UTF-8")
         self._rest = start.removeprefix(b"\xef\xbb\xbf")
+
+    def _piece(self, size):
+        try:
+            return self._stream.read(size)
+        except (EOFError, zlib.error, gzip.BadGzipFile) as error:
+            kind = CutOff if isinstance(error, EOFError) else InputError
+            raise refusal(self.path, self.number + len(self._lines) - self._next, "", "the compressed file is cut off or damaged", "a whole file",
+                          kind) from error
 
     @property
     def unended(self):
@@ -92,7 +107,7 @@ class TextFile:
             if len(self._rest) > LONGEST_LINE:
                 self.number += 1
                 self.refuse("", "is longer than 1 MiB", "lines of text")
-            piece = self._stream.read(PIECE)
+            piece = self._piece(PIECE)
             if not piece:
                 self._ended, whole, end, self._rest, self._unended = True, self._rest, self._rest, b"", bool(self._rest)
                 break
@@ -180,6 +195,12 @@ class TextFile:
         if not parts:
             return np.zeros(0, int), [np.zeros(0) for _ in columns.used]
         return np.concatenate([at for at, _ in parts]), [np.concatenate([numbers[:, k] for _, numbers in parts]) for k in range(len(columns.used))]
+
+    def lines_before(self, mark):
+        """How many of the next lines come before one that begins with `mark`, or before the end of what was read; 0 at either."""
+        if self._next == len(self._lines):
+            self._fill()
+        return next((k for k, line in enumerate(self._lines[self._next:]) if line.startswith(mark)), len(self._lines) - self._next)
 
     def so_many_rows(self, columns, most, refuse_end):
         """As joined(), of the next `most` rows; refuse_end(how many are missing, most) where the file has fewer."""

@@ -1,0 +1,279 @@
+"""Files of other programs (tests/import/files): what is in them, the balance of forces that their programs printed, and what is refused."""
+
+import gzip
+import shutil
+import weakref
+
+import h5py
+import numpy as np
+import pytest
+from conftest import SOURCES
+from drumlin.errors import InputError
+from drumlin.importing import frames
+from drumlin.importing.run import Import
+
+FILES = SOURCES / "tests" / "import" / "files"
+SOURCE = {"columns": [], "plane": "xz", "wall_types": [], "contacts": [], "contact_ids": [], "contact_forces": [], "wall_ids": [], "force_on": "first"}
+
+
+def imported(grains, contacts=(), folder=FILES, dimensions=3, tables=None, **source):
+    """(report, snapshots) in SI: d = 1 m, sqrt(d/g) = 1 s, density 1."""
+    description = {"files": SOURCE | source, "dimensions": dimensions, "gravity": {"acceleration_m_s2": 1.0, "direction_deg": -90.0},
+                   "grains": {"density_kg_m3": 1.0, "mean_diameter_m": 1.0, "may_change": False, "velocities": "given"}} | (tables or {})
+    found = Import(description, {"grains": [str(folder / name) for name in grains], "contacts": [str(folder / name) for name in contacts]})
+    snapshots = list(found)
+    return found.report, snapshots
+
+
+def refusal(*words, **source):
+    with pytest.raises(InputError) as refused:
+        imported(*words, **source)
+    return str(refused.value)
+
+
+def forces_on_grains(s):
+    """Sums of the contacts' forces, (grains, 3)."""
+    force = np.array([s["contacts/force_" + axis] for axis in "xyz"]).T
+    total = np.zeros((len(s["grains/x"]), 3))
+    np.add.at(total, s["contacts/i"], force)
+    inside = s["contacts/j"] >= 0
+    np.add.at(total, s["contacts/j"][inside], -force[inside])
+    return total
+
+
+def vectors(s, name, axes="xyz"):
+    return np.array([s[f"grains/{name}{axis}"] for axis in axes]).T
+
+
+LIGGGHTS = {"step_s": 2e-6, "contact_ids": ["c_contacts[1]", "c_contacts[2]"], "contact_forces": [f"c_contacts[{k}]" for k in (4, 5, 6)]}
+LAMMPS = {"contact_ids": ["c_pairs[1]", "c_pairs[2]"], "contact_forces": [f"c_forces[{k}]" for k in range(1, 7)]}
+MASS = 2500 * np.pi / 6 * 0.002**3
+
+
+def balance(s, rows, fields, share):
+    """The forces that a dump of LAMMPS or LIGGGHTS prints, with the weight that is in them, to a share of the largest."""
+    dumped = np.array([[float(row.split()[k]) for k in fields] for row in sorted(rows, key=lambda row: int(row.split()[0]))])
+    weight = np.array([0, 0, -9.81 * MASS])
+    np.testing.assert_allclose(forces_on_grains(s) + weight, dumped, atol=share * np.abs(dumped).max())
+
+
+def test_liggghts_dumps_hold_the_forces_that_they_print():
+    report, found = imported(["liggghts.dump"], ["liggghts.contacts"], **LIGGGHTS)
+    assert (report.kind, report.snapshots, report.grains, report.with_spin) == ("lammps", 3, 5, True)
+    rows = (FILES / "liggghts.dump").read_text(encoding="utf-8").splitlines()
+    for k, s in enumerate(found):
+        # Those of contacts are computed anew for the dump, with the velocities of the end of a step: at the start they are the same, in the middle of this
+        # impact one that is about to end differs by a sixth.
+        balance(s, rows[14 * k + 9:14 * k + 14], (8, 9, 10), (1e-8, 0.2, 0.01)[k])
+        assert [s["period_x"], s["period_y"], s["period_z"], s["time"]] == pytest.approx([0.01, 0.01, 0, 1e-4 * k])
+    across = (found[0]["contacts/i"] == 3) | (found[0]["contacts/j"] == 3)  # grain 4, at the seam
+    assert across.sum() == 1 and abs(found[0]["contacts/normal_x"][across][0]) > 0.9
+
+
+def test_lammps_dumps_of_a_tilted_box_hold_the_forces_that_they_print():
+    report, found = imported(["lammps.dump.gz"], ["lammps.contacts"], **LAMMPS)
+    with gzip.open(FILES / "lammps.dump.gz", "rt") as stream:
+        rows = stream.read().splitlines()
+    rows = [row for row in rows if len(row.split()) == 15]
+    for k, s in enumerate(found):
+        balance(s, rows[5 * k:5 * k + 5], (8, 9, 10), 1e-4)
+        assert s["tilt_xy"] == pytest.approx(0.001) and s["period_x"] == pytest.approx(0.01)
+    np.testing.assert_allclose(vectors(found[0], "")[0], [0.0021, 0.005, 0.01], rtol=1e-9)  # xs, ys, zs in the box
+    other = LAMMPS | {"contact_forces": LAMMPS["contact_forces"][:3]}  # without the tangential part
+    _, normal = imported(["lammps.dump.gz"], ["lammps.contacts"], **other)
+    assert np.abs(forces_on_grains(normal[2]) - forces_on_grains(found[2])).max() > 1e-4
+
+
+def test_mercury_tells_contacts_from_both_sides_and_walls_turned():
+    report, (first, last) = imported(["mercury-plane.data"], ["mercury-plane.fstat"], dimensions=2, plane="xy", depth_m=1.0)
+    assert (report.kind, report.contacts, first["grains/spin"].tolist()) == ("mercury", 2, [-3, 5, 0])  # the file has it clockwise
+    assert last["grains/z"].tolist() == [0.00099, 0.00099, 0.008] and last["time"] == 0.01
+    assert (first["contacts/i"].tolist(), first["contacts/j"].tolist()) == ([0, 0], [1, -1])
+    n, t = (first["contacts/" + name] / first["time_step"] for name in ("impulse_n", "impulse_t"))
+    np.testing.assert_allclose([n, t], [[2, 3], [0.5, 0.25]])  # tangent (n_z, -n_x): (0, 1) and (1, 0)
+    report, (first, _) = imported(["mercury-space.data"], ["mercury-space.fstat"])
+    np.testing.assert_allclose(forces_on_grains(first), [[0.25, 0.5, 1], [0, -0.5, 2], [0, 0, 0]])
+    assert vectors(first, "omega_")[0].tolist() == [1, 2, 3] and first["contacts/normal_z"].tolist() == [-1, 1]
+    walls = imported(["mercury-space.data"], ["mercury-space.fstat"], wall_types=[1])[1]
+    assert len(walls[0]["grains/x"]) == 2
+
+
+def test_yade_writes_text_and_vtk_with_the_forces_that_it_adds_up():
+    pytest.importorskip("vtk")
+    text = {"columns": ["v_x", "v_y", "v_z", "id"], "interval_s": 1e-3}
+    contacts = {"contact_ids": ["first", "second"], "contact_forces": ["fn", "fs"], "wall_ids": [0], "force_on": "second"}
+    report, found = imported(["yade-0.txt", "yade-1.txt"], ["yade-export-intrs-00000000.vtk", "yade-export-intrs-00000001.vtk"], **text, **contacts)
+    assert (report.kind, report.contacts) == ("yade", 12)
+    for k, s in enumerate(found):
+        np.testing.assert_allclose(forces_on_grains(s), np.loadtxt(FILES / f"yade-forces-{k}.txt"), atol=2e-3)  # six digits of 100 N
+        assert s["time"] == 1e-3 * k
+    _, (first, second) = imported(["yade-spheres.100.vtu", "yade-spheres.200.vtu"], step_s=1e-5)
+    np.testing.assert_allclose(vectors(second, ""), vectors(found[1], ""), atol=1e-6)
+    np.testing.assert_allclose(vectors(second, "v_"), vectors(found[1], "v_"), rtol=1e-5, atol=1e-9)
+    assert [first["time"], second["time"]] == pytest.approx([1e-3, 2e-3]) and second["grains/radius"].tolist() == [0.05] * 4
+    assert "is no array of vectors" in refusal(["yade-0.txt", "yade-1.txt"], ["yade-export-intrs-00000000.vtk"], **text, **contacts | {"contact_forces": ["kn"]})
+
+
+def packing(count, seed=0):
+    random = np.random.default_rng(seed)
+    return random.random((count, 3)), random.random((count, 3)), 0.1 + random.random(count)
+
+
+def write_gsd(path, frames_, log=True):
+    hoomd = pytest.importorskip("gsd.hoomd")
+    with hoomd.open(name=str(path), mode="wb") as file:
+        for k in range(frames_):
+            places, speeds, radii = packing(6, k)
+            frame = getattr(hoomd, "Frame", getattr(hoomd, "Snapshot", None))()
+            frame.configuration.step, frame.configuration.box = 100 * k, [4, 4, 4, 0, 0.5, 0]
+            frame.particles.N, frame.particles.position, frame.particles.velocity = 6, places, speeds
+            frame.particles.diameter = 2 * packing(6)[2]
+            if log:
+                frame.bonds.N, frame.bonds.types, frame.bonds.group = 1, ["contact"], [[0, 1]]
+                frame.log["bonds/force_N"] = [[1.0, 2.0, 3.0]] * np.sign(places[0] - places[1])
+            file.append(frame)
+
+
+def test_gsd_of_hoomd(tmp_path):
+    write_gsd(tmp_path / "a.gsd", 3)
+    report, found = imported(["a.gsd"], ["a.gsd"], tmp_path, step_s=0.5)
+    np.testing.assert_allclose(vectors(found[1], ""), packing(6, 1)[0], rtol=1e-6)
+    np.testing.assert_allclose(found[1]["grains/radius"], packing(6)[2], rtol=1e-6)
+    assert (found[2]["time"], found[0]["tilt_xz"], found[0]["period_z"], report.contacts) == (100, 2, 4, 3)
+    assert "frame 0: configuration/step: counts steps whose length is not known" in refusal(["a.gsd"], (), tmp_path)
+    write_gsd(tmp_path / "b.gsd", 1, log=False)
+    assert "HOOMD stores no contacts" in refusal(["a.gsd"], ["b.gsd"], tmp_path, step_s=0.5)
+
+
+def write_vtkhdf(path, frames_, nan=False):
+    """A series of VTKHDF as its document has it."""
+    with h5py.File(path, "w") as file:
+        root = file.create_group("VTKHDF")
+        root.attrs["Version"], root.attrs["Type"] = (2, 0), np.bytes_("PolyData")
+        steps = root.create_group("Steps")
+        steps.attrs["NSteps"] = frames_
+        steps["Values"], steps["PointOffsets"] = 0.5 * np.arange(frames_), 6 * np.arange(frames_)
+        steps["NumberOfParts"], steps["PartOffsets"] = np.ones(frames_, int), np.arange(frames_)
+        steps["PointDataOffsets/radius"], steps["PointDataOffsets/velocity"] = np.zeros(frames_, int), 6 * np.arange(frames_)
+        root["NumberOfPoints"] = np.full(frames_, 6)
+        places = np.concatenate([packing(6, k)[0] for k in range(frames_)])
+        if nan:
+            places[8, 1] = np.nan
+        root["Points"], root["PointData/velocity"] = places, np.concatenate([packing(6, k)[1] for k in range(frames_)])
+        root["PointData/radius"] = packing(6)[2]  # once for all
+
+
+def test_series_of_vtkhdf(tmp_path):
+    write_vtkhdf(tmp_path / "a.vtkhdf", 3)
+    report, found = imported(["a.vtkhdf"], (), tmp_path)
+    assert (report.kind, report.snapshots, found[2]["time"]) == ("vtkhdf", 3, 1.0)
+    for k, s in enumerate(found):
+        for name, values in (("", packing(6, k)[0]), ("v_", packing(6, k)[1])):
+            np.testing.assert_array_equal(vectors(s, name), values)
+        np.testing.assert_array_equal(s["grains/radius"], packing(6)[2])
+    write_vtkhdf(tmp_path / "nan.vtkhdf", 3, nan=True)
+    assert "nan.vtkhdf:frame 1, row 3: y: is nan (allowed: finite numbers)" in refusal(["nan.vtkhdf"], (), tmp_path)
+
+
+def test_series_of_vtp(tmp_path):
+    vtk = pytest.importorskip("vtk")
+    from vtk.util.numpy_support import numpy_to_vtk
+    for k in range(2):
+        places, speeds, radii = packing(5, k)
+        grid, points = vtk.vtkPolyData(), vtk.vtkPoints()
+        points.SetData(numpy_to_vtk(places, deep=True))
+        grid.SetPoints(points)
+        for name, values in (("Velocity", speeds), ("Radius", packing(5)[2])):
+            array = numpy_to_vtk(values, deep=True)
+            array.SetName(name)
+            grid.GetPointData().AddArray(array)
+        writer = vtk.vtkXMLPolyDataWriter()
+        writer.SetFileName(str(tmp_path / f"s{k}.vtp"))
+        writer.SetInputData(grid)
+        writer.Write()
+    entries = "".join(f'<DataSet timestep="{0.25 * k}" file="s{k}.vtp"/>' for k in range(2))
+    (tmp_path / "s.pvd").write_text(f'<?xml version="1.0"?><VTKFile type="Collection"><Collection>{entries}</Collection></VTKFile>', encoding="utf-8")
+    for files, more in ((["s.pvd"], {}), (["s0.vtp", "s1.vtp"], {"interval_s": 0.25})):
+        _, found = imported(files, (), tmp_path, **more)
+        np.testing.assert_array_equal(vectors(found[1], "v_"), packing(5, 1)[1])
+        assert found[1]["time"] == 0.25
+    whole = (tmp_path / "s1.vtp").read_bytes()
+    (tmp_path / "cut.vtp").write_bytes(whole[:len(whole) // 2])
+    assert "cut.vtp" in refusal(["cut.vtp"], (), tmp_path, interval_s=1.0)
+    report, found = imported(["s0.vtp", "s1.vtp", "cut.vtp"], (), tmp_path, interval_s=1.0)
+    assert len(found) == 2 and "cut.vtp" in report.left_out[0]
+    assert "has no time" in refusal(["s0.vtp"], (), tmp_path)
+
+
+TEXT = {"liggghts.dump": LIGGGHTS, "mercury-space.data": {}, "mercury-plane.data": {"dimensions": 2, "plane": "xy"}}
+
+
+@pytest.mark.parametrize("name", TEXT)
+def test_frames_cut_off_doubled_or_not_a_number(tmp_path, name):
+    whole, source = (FILES / name).read_text(encoding="utf-8"), TEXT[name]
+    (tmp_path / "f").write_text(whole[:-9], encoding="utf-8")
+    report, found = imported(["f"], (), tmp_path, **source)
+    assert len(report.left_out) == 1 and "f:" in report.left_out[0] and "is cut off" in report.left_out[0], report
+    (tmp_path / "f").write_text(whole[:len(whole) // 8], encoding="utf-8")
+    assert "f:" in refusal(["f"], (), tmp_path, **source)
+    begin = whole.rindex("ITEM: TIMESTEP") if "ITEM" in whole else whole.rindex("3 0.01")
+    (tmp_path / "f").write_text(whole + whole[begin:], encoding="utf-8")
+    report, twice = imported(["f"], (), tmp_path, **source)
+    assert len(twice) == len(found) + 1 and "once more" in report.left_out[0]
+    words = whole.split(" ")
+    place = next(k for k in range(len(words) - 5, 0, -1) if "." in words[k] and "\n" not in words[k])
+    (tmp_path / "f").write_text(" ".join([*words[:place], "nan", *words[place + 1:]]), encoding="utf-8")
+    assert '"nan" is no number' in refusal(["f"], (), tmp_path, **source)
+
+
+@pytest.mark.parametrize("name, write", [("a.gsd", write_gsd), ("a.vtkhdf", write_vtkhdf)])
+def test_binary_files_that_are_cut_off(tmp_path, name, write):
+    write(tmp_path / name, 3)
+    whole = (tmp_path / name).read_bytes()
+    (tmp_path / name).write_bytes(whole[:len(whole) // 2])
+    assert name in refusal([name], (), tmp_path, step_s=1.0)
+
+
+def test_files_in_other_units_or_formats_are_refused(tmp_path):
+    shutil.copy(FILES / "mercury-space.data", tmp_path / "a")
+    millimetres = (tmp_path / "a").read_text(encoding="utf-8").split("3 0.01", 1)[1].replace("0.001 0 0 0", "1 0 0 0")
+    (tmp_path / "b").write_text("3 0.02" + millimetres, encoding="utf-8")
+    assert "b:2: radius: the mean is 1, in the snapshot before 0.001 (allowed: one unit" in refusal(["a", "b"], (), tmp_path).replace("b:1", "b:2")
+    (tmp_path / "c").write_bytes((FILES / "liggghts.dump").read_bytes())
+    assert "c: is of the format lammps" in refusal(["a", "c"], (), tmp_path)
+    (tmp_path / "d").write_bytes(b"\x7fELF" + bytes(100))
+    assert "d: is of no format that is known" in refusal(["d"], (), tmp_path)
+
+
+def test_every_format_is_told_by_its_first_bytes(tmp_path):
+    write_vtkhdf(tmp_path / "a.vtkhdf", 1)
+    for name, kind in {"liggghts.dump": "lammps", "lammps.dump.gz": "lammps", "liggghts.contacts": "lammps", "yade-0.txt": "yade", "mercury-plane.data":
+                       "mercury", "mercury-space.data": "mercury", "mercury-plane.fstat": "mercury-fstat", "yade-spheres.100.vtu": "vtk",
+                       "yade-export-intrs-00000000.vtk": "vtk", tmp_path / "a.vtkhdf": "vtkhdf"}.items():
+        assert frames.format_of(FILES / name).name == kind
+    (tmp_path / "t.csv").write_text("# a comment\ntime_s,x_m,z_m\n0,1,2\n", encoding="utf-8")
+    assert frames.format_of(tmp_path / "t.csv").name == "csv"
+
+
+def test_at_most_a_few_frames_live_at_a_time(tmp_path):
+    """Of any number: those of two instants and of their contacts."""
+    heading = (FILES / "mercury-space.data").read_text(encoding="utf-8").split("\n", 1)[1].split("3 0.01")[0]
+    contacts = (FILES / "mercury-space.fstat").read_text(encoding="utf-8").split("\n", 3)[3].split("# 0.01")[0]
+    count = 60
+    (tmp_path / "d").write_text("".join(f"3 {k} 0 0 0 1 1 1\n{heading}" for k in range(count)), encoding="utf-8")
+    (tmp_path / "f").write_text("".join(f"# {k} 1\n# 0 0 0 1 1 1\n# 1 1 0 0 0 0\n{contacts}" for k in range(count)), encoding="utf-8")
+    description = {"files": SOURCE, "dimensions": 3, "gravity": {"acceleration_m_s2": 1.0, "direction_deg": -90.0},
+                   "grains": {"density_kg_m3": 1.0, "mean_diameter_m": 1.0, "may_change": False, "velocities": "given"}}
+    found = Import(description, {"grains": [str(tmp_path / "d")], "contacts": [str(tmp_path / "f")]})
+    seen, most = [], 0
+
+    def watched(source):
+        for frame in source:
+            seen.append(weakref.ref(frame))
+            yield frame
+
+    found.frames.frames_of = (lambda own: lambda text: watched(own(text)))(found.frames.frames_of)
+    found.contact_frames.frames_of = (lambda own: lambda text: watched(own(text)))(found.contact_frames.frames_of)
+    for _ in found:
+        most = max(most, sum(frame() is not None for frame in seen))
+    assert found.report.snapshots == count and most <= 6
