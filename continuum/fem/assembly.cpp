@@ -146,30 +146,30 @@ void add_side(const Discretisation& d, const BoundaryCondition& condition, const
   }
 }
 
-// A free surface goes with the material in the mean over its sides alone. Where material would come in
-// through it at a point, it brings no energy: backflow stabilisation as at outlets (Moghadam et al., Comput.
-// Mech. 48 (2011) 277); what passes is that of the start of the step, which the mesh's velocity belongs to.
-void add_backflow(double density, const dealii::FEFaceValues<2>& face, const CellShapes& s,
-                  const dealii::Vector<double>& local, const dealii::Vector<double>& before,
-                  const dealii::Vector<double>& mesh_velocity, dealii::Vector<double>& residual,
-                  dealii::FullMatrix<double>* matrix) {
+// A free surface goes with the material in the mean over its sides alone. What would come in through it at a
+// point has the velocity of the surface, as inflow of a convected field is given; what passes is that of the
+// start of the step, which the mesh's velocity belongs to.
+void add_inflow(double density, const dealii::FEFaceValues<2>& face, const CellShapes& s,
+                const dealii::Vector<double>& local, const dealii::Vector<double>& before,
+                const dealii::Vector<double>& mesh_velocity, dealii::Vector<double>& residual,
+                dealii::FullMatrix<double>* matrix) {
   for (const unsigned int q : face.quadrature_point_indices()) {
     const auto normal = face.normal_vector(q);
-    std::array<double, 2> u{};
+    std::array<double, 2> relative{};
     double passing = 0;  // (u - W).n
     for (unsigned int i = 0; i < s.n; ++i) {
       const unsigned int c = s.component[i];
       if (!moves(c)) continue;
-      u[c] += local[i] * face.shape_value(i, q);
+      relative[c] += (local[i] - mesh_velocity[i]) * face.shape_value(i, q);
       passing += (before[i] - mesh_velocity[i]) * face.shape_value(i, q) * normal[c];
     }
     if (passing >= 0) continue;
-    const double half = 0.5 * density * passing * face.JxW(q);
+    const double brought = density * passing * face.JxW(q);
     for (unsigned int i = 0; i < s.n; ++i) {
       const unsigned int c = s.component[i];
       if (!moves(c)) continue;
-      const double at_i = half * face.shape_value(i, q);
-      residual[i] -= at_i * u[c];
+      const double at_i = brought * face.shape_value(i, q);
+      residual[i] -= at_i * relative[c];
       if (!matrix) continue;
       for (unsigned int j = 0; j < s.n; ++j)
         if (s.component[j] == c) (*matrix)(i, j) -= at_i * face.shape_value(j, q);
@@ -284,8 +284,8 @@ class CellSystem {
     if (!condition && mesh_velocity_.size() > 0 &&
         cell->face(f)->boundary_id() == static_cast<unsigned>(Side::top)) {
       face_.reinit(cell, f);
-      add_backflow(problem_.density, face_, shapes_, local_, before_, mesh_velocity_, contribution.residual,
-                   with_tangent_ ? &contribution.tangent : nullptr);
+      add_inflow(problem_.density, face_, shapes_, local_, before_, mesh_velocity_, contribution.residual,
+                 with_tangent_ ? &contribution.tangent : nullptr);
     }
     if (!condition || (forces_of_walls_ && std::holds_alternative<FrictionWall>(*condition))) return;
     face_.reinit(cell, f);
