@@ -125,6 +125,30 @@ TEST(RegionFlow, OfABlockFallsFreely) {
   }
 }
 
+// Material in the air, which still moves as a column that spreads: a uniform weight deforms nothing, to the
+// first order of the step.
+TEST(RegionFlow, OfAFreeBodyDeformsInTheSameWayWhicheverWayItFalls) {
+  const RegionMarch spreads = column(8, 6, 2, 2);
+  RegionState start = ended(spreads).state;
+  for (auto& edge : start.mesh.boundary) edge.part = Outline::free;
+  start.time = 0;
+  const auto falls = [&](double direction) {
+    RegionMarch march = plan({.parts = {}, .fill = box(8, 6)}, 2, 0.05, 1);
+    march.problem.slope = FixedSlope{direction};
+    Flow flow = gone_on(march, start);
+    EXPECT_TRUE(flow.report.converged) << flow.report.failure;
+    return flow;
+  };
+  const Flow one = falls(0), two = falls(right_angle);
+  const auto& x = one.state.mesh.vertices;
+  const auto& y = two.state.mesh.vertices;
+  ASSERT_EQ(x.size(), y.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    EXPECT_NEAR(x[i].x - x[0].x, y[i].x - y[0].x, 0.05);
+    EXPECT_NEAR(x[i].z - x[0].z, y[i].z - y[0].z, 0.05);
+  }
+}
+
 TEST(RegionFlow, OfAColumnKeepsItsMassAndItsEnergy) {
   const Flow flow = ended(column(20, 10, 2, 8));
   EXPECT_LT(flow.energy_error(), 0.1);
