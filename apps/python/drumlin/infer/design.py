@@ -1,0 +1,161 @@
+"""Runs that fill the space of the unknowns: chosen, kept for the next question, made by an executor, resumed."""
+
+import concurrent.futures
+import dataclasses
+import hashlib
+import json
+import pathlib
+import tomllib
+
+import numpy as np
+import scipy.stats
+
+from ..commands import command
+from ..errors import DrumlinError, InputError, NotConvergedError
+from ..scenes import overrides_of, resolved
+
+# Keys of a scene that an unknown stands for. Runs that differ in these alone, and in their seed, are one family.
+KEYS = {"friction": ("effects.friction.grain_grain",), "wall_friction": ("effects.friction.grain_wall",),
+        "rolling_resistance": ("effects.rolling_resistance.grain_grain", "effects.rolling_resistance.grain_wall"),
+        "restitution": ("effects.restitution.grain_grain", "effects.restitution.grain_wall")}
+
+
+def keys_of(unknown):
+    """Keys of a scene that an unknown sets: its own, or itself where it is such a key."""
+    return KEYS.get(unknown, (unknown,))
+
+
+def flat(table, above=""):
+    """{dotted key: value} of a scene; entries of its arrays by their numbers."""
+    found = {}
+    for key, value in (table.items() if isinstance(table, dict) else enumerate(table)):
+        if isinstance(value, (dict, list)):
+            found |= flat(value, f"{above}{key}.")
+        else:
+            found[f"{above}{key}"] = value
+    return found
+
+
+@dataclasses.dataclass
+class Family:
+    """Runs of one scene and its settings with other grains, in a folder of their own. `given`: the scene's own values of the keys of KEYS."""
+
+    scene: str  # a file or the name of a shipped scene
+    settings: dict
+    unknowns: dict  # name: (low, high), or the name of another unknown that it equals
+    folder: pathlib.Path
+    given: dict
+
+    def values(self, folder):
+        """The unknowns of a run in this folder; None where it lies outside of the ranges or differs in a grain that is not asked for."""
+        scene = flat(tomllib.loads((folder / "scene.toml").read_text(encoding="utf-8")))
+        asked = {key: name for name in self.unknowns for key in keys_of(name)}
+        if any(key not in asked and scene.get(key) != value for key, value in self.given.items()):
+            return None
+        found = {}
+        for key, name in asked.items():
+            value = scene.get(key)
+            if value is None or not np.isclose(found.setdefault(name, value), value, rtol=1e-9):
+                return None
+        for name, prior in self.unknowns.items():
+            if isinstance(prior, str) and not np.isclose(found[name], found[prior], rtol=1e-9):
+                return None
+            if not isinstance(prior, str) and not prior[0] * (1 - 1e-9) <= found[name] <= prior[1] * (1 + 1e-9):
+                return None
+        return np.array([found[name] for name, prior in self.unknowns.items() if not isinstance(prior, str)])
+
+    def changes(self, point, seed):
+        """What a run at this point sets in the scene."""
+        free = dict(zip((name for name, prior in self.unknowns.items() if not isinstance(prior, str)), point))
+        values = {name: free[prior if isinstance(prior, str) else name] for name, prior in self.unknowns.items()}
+        return self.settings | {"seed": int(seed)} | {key: float(value) for name, value in values.items() for key in keys_of(name)}
+
+    def run_folder(self, point, seed):
+        """Where the run at this point lies, by its scene."""
+        text = resolved(self.scene, self.changes(point, seed))
+        return self.folder / hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+def family(scene, settings, unknowns, store):
+    """The family of a scene in a folder of designs. InputError where the scene has no place for an unknown."""
+    content = flat(tomllib.loads(resolved(scene, settings)))
+    known = [key for name in {*KEYS, *unknowns} for key in keys_of(name)]
+    same = {key: value for key, value in content.items() if key not in known and key not in ("title", "seed")}
+    name = hashlib.sha256(json.dumps(same, sort_keys=True).encode()).hexdigest()[:12]
+    return Family(str(scene), dict(settings), unknowns, pathlib.Path(store) / name, {key: content.get(key) for key in known})
+
+
+@dataclasses.dataclass
+class Planned:
+    """A run of a design: at `point` of the free unknowns, in `folder`; `changes` is None where its folder says all."""
+
+    family: Family
+    point: np.ndarray
+    folder: pathlib.Path
+    changes: dict | None
+
+    def status(self):
+        """"" where there is nothing, else what its run.json says."""
+        file = self.folder / "run.json"
+        return json.loads(file.read_text(encoding="utf-8"))["status"] if file.exists() else ""
+
+    def make(self):
+        """Runs it, or goes on. Whether it finished: one that does not converge is no data, and others go on."""
+        if self.status() == "finished":
+            return True
+        scene = self.folder / "scene.toml"
+        words = [scene] if scene.exists() else [self.family.scene, *(word for change in overrides_of(self.changes) for word in ("--set", change))]
+        try:
+            command("run", *words, "-o", self.folder, "--threads", "1", "--resume")
+        except NotConvergedError:
+            pass
+        return self.status() == "finished"
+
+    def cpu_seconds(self):
+        return json.loads((self.folder / "run.json").read_text(encoding="utf-8")).get("cpu_seconds", 0.0)
+
+
+def sobol(ranges, count):
+    """Points that fill the ranges, (count, unknowns)."""
+    low, high = np.transpose(ranges)
+    sequence = scipy.stats.qmc.Sobol(len(low), scramble=True, seed=1)
+    return low + (high - low) * sequence.random_base2(max(1, int(np.ceil(np.log2(count)))))[:count]
+
+
+def plan(of, count):
+    """`count` runs of a family: those that are there, and points of a Sobol sequence, those farthest from the others first."""
+    ranges = np.array([prior for prior in of.unknowns.values() if not isinstance(prior, str)], float)
+    there = []
+    for folder in sorted(of.folder.glob("*/scene.toml")) if of.folder.exists() else []:
+        point = of.values(folder.parent)
+        if point is not None:
+            there.append(Planned(of, point, folder.parent, None))
+    fresh = []
+    for number, point in enumerate(sobol(ranges, count)):
+        folder = of.run_folder(point, number + 1)
+        if not (folder / "scene.toml").exists():
+            fresh.append(Planned(of, point, folder, of.changes(point, number + 1)))
+    scale = ranges[:, 1] - ranges[:, 0]
+    while fresh and len(there) < count:
+        apart = [min((np.sum(((one.point - other.point) / scale) ** 2) for other in there), default=0.0) for one in fresh]
+        there.append(fresh.pop(int(np.argmax(apart))))
+    return there
+
+
+def make_all(runs, executor, done=lambda run: None):
+    """Makes runs by an executor as of concurrent.futures; `done(run)` after each. The first error that is no run's own fault is raised at the end."""
+    waiting, failures = {executor.submit(run.make): run for run in runs}, []
+    for future in concurrent.futures.as_completed(waiting):
+        try:
+            future.result()
+        except DrumlinError as error:
+            failures.append(error)
+        done(waiting[future])
+    if failures:
+        raise failures[0]
+
+
+def require_free(unknowns):
+    """InputError unless something is asked for."""
+    if not any(not isinstance(prior, str) for prior in unknowns.values()):
+        raise InputError("unknowns: none has a range")
