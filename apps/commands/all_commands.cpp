@@ -18,6 +18,7 @@
   row(flow_command) \
   row(compare_command) \
   row(pair_command) \
+  row(infer_command) \
   row(score_command) \
   row(scene_command) \
   row(solve_contacts_command) \

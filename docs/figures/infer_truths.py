@@ -7,12 +7,13 @@ usage: infer_truths.py runs|judge LIMITS WORK [-o RECORD.json] [--processes N]
 
 import argparse
 import concurrent.futures
+import itertools
 import pathlib
 import tomllib
 
 import numpy as np
 
-from drumlin.infer import design, observables
+from drumlin.infer import design
 
 BIASED_SEED = 1000  # seeds of the truths that are measured several times begin here, those of the 40 at 500, designs at 1
 
@@ -46,22 +47,15 @@ def planned_truths(limits, of, name, work):
 
 
 def make_runs(limits, scenes, work, processes):
-    plans = []
-    for name, (of, quantities) in families(limits, scenes, work).items():
-        every = design.plan(of, limits["design_runs"]) + list(planned_truths(limits, of, name, work).values())
-        plans += [(run, quantities) for run in every]
-
-    def one(run, quantities):
+    runs = []
+    for name, (of, _) in families(limits, scenes, work).items():
+        runs += design.plan(of, limits["design_runs"]) + list(planned_truths(limits, of, name, work).values())
+    runs.sort(key=lambda run: run.folder.name[-2] == "-" and run.folder.name.startswith("drum"))  # those of the biased truths last
+    for run in runs:
         run.folder.parent.mkdir(parents=True, exist_ok=True)
-        if run.make():
-            observables.measure(run.folder, [name for name, _ in quantities])
+    done = itertools.count(1)
     with concurrent.futures.ThreadPoolExecutor(processes) as executor:
-        waiting = [executor.submit(one, *plan) for plan in plans]
-        for number, future in enumerate(concurrent.futures.as_completed(waiting)):
-            if future.exception():
-                print(f"failed: {future.exception()}", flush=True)
-            if number % 10 == 0:
-                print(f"{number + 1} of {len(plans)}", flush=True)
+        design.make_all(runs, executor, lambda _: print(f"{next(done)} of {len(runs)}", flush=True))
 
 
 def main():

@@ -267,6 +267,7 @@ void print_results(const Request& request, const fs::path& folder, const particl
 
 /// Of the files that are there now.
 std::vector<FigureScript> figures_of(const Request& request, const fs::path& folder) {
+  if (request.options.no_figures) return {};
   const std::vector<std::string> words{folder.string()};
   std::vector<FigureScript> figures{{"measure_figures.py", words}};
   for (const Part& part : request.parts)

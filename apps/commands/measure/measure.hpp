@@ -23,7 +23,7 @@ struct MeasureOptions {
   std::vector<double> x, z;           ///< x0, x1 and z0, z1 of the nodes of frames, d; empty: of all grains
   std::optional<double> nu_bulk;      ///< of frames; absent: of the fill at the origin
   std::string grains;  ///< snapshots whose grains get their fields written, a list as in export; empty: none
-  bool verbose = false;
+  bool verbose = false, no_figures = false;
   std::optional<std::filesystem::path> accuracy;  ///< absent: a shipped record, if there is one
   ExistingOutput existing = ExistingOutput::refuse;
 
@@ -73,6 +73,7 @@ struct MeasureOptions {
     d.add("--grains", grains, "LIST",
           "Snapshots of which every grain's fields are written: all, last, or numbers and ranges such as "
           "1,5,10-20");
+    d.add("--no-figures", no_figures, "Draws none").excludes("--study");
     d.add("--verbose", verbose, "Prints every number, not the main ones alone").decides(Decides::nothing);
     d.accuracy(accuracy);
     d.existing(existing);
