@@ -1,4 +1,4 @@
-// drumlin infer: the grains behind measured numbers, which drumlin/infer/command.py of the Python package
+// drumlin infer: the grains behind measured numbers, which drumlin/inference/command.py of the Python package
 // finds.
 #include <nlohmann/json.hpp>
 
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 struct InferOptions {
   fs::path question, output;
   std::optional<fs::path> designs;
-  int processes = processors_at_hand();
+  std::string executor = "local";
   bool price_only = false;
   ExistingOutput existing = ExistingOutput::refuse;
 
@@ -27,7 +27,8 @@ struct InferOptions {
     d.add("--designs", designs, "DIR",
           "Folder of runs that other questions use, too; absent: designs, beside the output")
         .decides(Decides::nothing);
-    d.add("--processes", processes, "", at_least(1, most_threads), "Runs at a time")
+    d.add("--executor", executor, "WHERE",
+          "Who makes the runs: local, local:N (so many at a time) or dask:ADDRESS")
         .decides(Decides::nothing);
     d.add("--price-only", price_only, "Makes the first run of each scene, says what all will cost, and ends");
     d.existing(existing, "Goes on where an earlier call was interrupted");
@@ -44,10 +45,10 @@ int infer(const InferOptions& options) {
                                                                  : ""},
       {"question", options.question.string()},
       {"designs", options.designs ? options.designs->string() : ""},
-      {"processes", options.processes},
+      {"executor", options.executor},
       {"price_only", options.price_only},
       {"sum", request.requested}};
-  return end_of_command("../infer/command.py", {given.dump()});
+  return end_of_command("../inference/command.py", {given.dump()});
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 """Runs that fill the space of the unknowns: chosen, kept for the next question, made by an executor, resumed."""
 
-import concurrent.futures
 import dataclasses
+import functools
 import hashlib
 import json
 import pathlib
@@ -10,9 +10,11 @@ import tomllib
 import numpy as np
 import scipy.stats
 
-from ..commands import command
-from ..errors import DrumlinError, InputError, NotConvergedError
-from ..scenes import overrides_of, resolved
+from ..commands import run
+from ..errors import NotConvergedError
+from ..scenes import resolved
+from ..sweeping.executors import run_all
+from . import observables
 
 # Keys of a scene that an unknown stands for. Runs that differ in these alone, and in their seed, are one family.
 KEYS = {"friction": ("effects.friction.grain_grain",), "wall_friction": ("effects.friction.grain_wall",),
@@ -99,17 +101,16 @@ class Planned:
         file = self.folder / "run.json"
         return json.loads(file.read_text(encoding="utf-8"))["status"] if file.exists() else ""
 
-    def make(self):
-        """Runs it, or goes on. Whether it finished: one that does not converge is no data, and others go on."""
-        if self.status() == "finished":
-            return True
-        scene = self.folder / "scene.toml"
-        words = [scene] if scene.exists() else [self.family.scene, *(word for change in overrides_of(self.changes) for word in ("--set", change))]
-        try:
-            command("run", *words, "-o", self.folder, "--threads", "1", "--resume")
-        except NotConvergedError:
-            pass
-        return self.status() == "finished"
+    def make(self, quantities=()):
+        """Runs it, or goes on, and measures it. Whether it finished: one that does not converge is no data, and others go on."""
+        if self.status() != "finished":
+            scene = self.folder / "scene.toml"
+            try:
+                run(*([scene, self.folder] if scene.exists() else [self.family.scene, self.folder, self.changes]), resume=True)
+            except NotConvergedError:
+                return False
+        observables.measure(self.folder, quantities)
+        return True
 
     def cpu_seconds(self):
         return json.loads((self.folder / "run.json").read_text(encoding="utf-8")).get("cpu_seconds", 0.0)
@@ -142,20 +143,10 @@ def plan(of, count):
     return there
 
 
-def make_all(runs, executor, done=lambda run: None):
-    """Makes runs by an executor as of concurrent.futures; `done(run)` after each. The first error that is no run's own fault is raised at the end."""
-    waiting, failures = {executor.submit(run.make): run for run in runs}, []
-    for future in concurrent.futures.as_completed(waiting):
-        try:
-            future.result()
-        except DrumlinError as error:
-            failures.append(error)
-        done(waiting[future])
-    if failures:
-        raise failures[0]
-
-
-def require_free(unknowns):
-    """InputError unless something is asked for."""
-    if not any(not isinstance(prior, str) for prior in unknowns.values()):
-        raise InputError("unknowns: none has a range")
+def make_all(runs, folder, executor=None, progress=None):
+    """Makes [(run, quantities)] by an executor as of sweeping.run_all; `folder`: any that its workers see. The first error that is no run's own fault is
+    raised once the others have ended."""
+    outcomes = run_all([functools.partial(run.make, quantities) for run, quantities in runs], folder, executor, progress)
+    for outcome in outcomes:
+        if outcome.error is not None:
+            raise outcome.error

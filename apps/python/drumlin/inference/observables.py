@@ -23,10 +23,10 @@ def measure(folder, quantities):
     """Runs `drumlin measure` for what the folder does not hold yet."""
     folder, quantities = pathlib.Path(folder), set(quantities)
     if quantities - {RATE, *OF_FRAMES} and not (folder / "measured" / "measured.json").exists():
-        command("measure", folder, "--parts", "none")
+        command("measure", folder, "--parts", "none", "--no-figures", "--resume")
     if quantities & set(OF_FRAMES) and not (folder / "frames" / "frames.h5").exists():
         begin, end = _last_stage(folder)
-        command("measure", folder, "--at", f"0,{end - begin:.12g}", "--origin", f"{begin:.12g}", "-o", folder / "frames")
+        command("measure", folder, "--at", f"0,{end - begin:.12g}", "--origin", f"{begin:.12g}", "-o", folder / "frames", "--resume")
 
 
 def _last_stage(folder):

@@ -1,0 +1,125 @@
+"""`drumlin infer` once its options are read: makes the runs that are missing, infers, and writes infer.json, samples.csv and figures.
+
+usage: command.py GIVEN
+  GIVEN  JSON: output, existing (--resume or --overwrite), question (file), designs (folder, or empty), executor, price_only, sum (of all that was requested)
+"""
+
+import json
+import pathlib
+import sys
+
+import numpy as np
+
+from drumlin import _drumlin
+from drumlin.commands import draw
+from drumlin.errors import NotConvergedError
+from drumlin.figures import whole_file
+from drumlin.inference import answer, design, emulator, posterior, question
+
+LEAST_PRICE_S = 0.05
+
+
+class Design:
+    """The runs of one scene of a question."""
+
+    def __init__(self, asked, scene, store):
+        self.scene, self.quantities = scene, [one.quantity for one in scene.measured]
+        self.family = design.family(scene.scene, scene.settings, asked.ranges(), store)
+        self.runs = design.plan(self.family, asked.runs)
+
+    def missing(self):
+        return [run for run in self.runs if run.status() != "finished"]
+
+    def seconds(self):
+        """Processor time of a run: the mean of those that are there; NaN without any."""
+        there = [run.cpu_seconds() for run in self.runs if run.status()]
+        return float(np.mean(there)) if there else np.nan
+
+    def emulator(self, of_unit):
+        """(Emulator, runs that count)"""
+        points, values, errors = [], [], []
+        for run in self.runs:
+            found = question.simulated(self.scene, run.folder) if run.status() == "finished" else None
+            if found is not None:
+                points.append(run.point)
+                values.append(found[0])
+                errors.append(found[1])
+        if len(points) < emulator.LEAST_RUNS:
+            raise NotConvergedError(f"{self.scene.name}: {len(points)} of {len(self.runs)} runs have finished (allowed: {emulator.LEAST_RUNS} or more)")
+        return emulator.Emulator(of_unit(np.array(points)), np.array(values), np.array(errors), self.scene.names()), len(points)
+
+
+def make(designs, folder, executor, say, progress=None, price_only=False):
+    """Makes the runs that are missing; says before what they cost, by the first of each scene."""
+    count = sum(len(each.missing()) for each in designs)
+    if count:
+        say(f"{count} runs to make of {sum(len(each.runs) for each in designs)}")
+    first = [(each.missing()[0], each.quantities) for each in designs if each.missing() and len(each.missing()) == len(each.runs)]
+    if first:
+        design.make_all(first, folder, executor, progress)
+    if count:
+        parts = [(len(each.missing()), each.seconds(), each.scene.name) for each in designs if each.missing()]
+        total = sum(number * seconds for number, seconds, _ in parts)
+        text = "; ".join(f"{name}: {number} runs x {seconds:.2g} s" for number, seconds, name in parts)
+        say(f"cost: {total:.0f} s of a processor, without the measurements ({text})")
+    if not price_only:
+        every = [(run, each.quantities) for each in designs for run in each.missing()]
+        design.make_all(every, folder, executor, progress)
+
+
+def inferred(asked, designs):
+    """(Posterior, samples, content of infer.json)"""
+    of = posterior.Posterior(asked.priors, [])
+    used = []
+    for each in designs:
+        emulated, count = each.emulator(of.unit)
+        values, errors = each.scene.values()
+        of.data.append(posterior.Datum(emulated, values, errors, each.scene.realisations))
+        used.append({"scene": each.scene.name, "folder": str(each.family.folder), "runs": count, "failed": len(each.runs) - count,
+                     "cpu_seconds": float(sum(run.cpu_seconds() for run in each.runs if run.status()))})
+    samples, _ = of.sample()
+    return samples, {"format": "drumlin-infer-1", "title": asked.title, "equal": asked.equal} | answer.answer(of, samples, asked.scenes) | {"designs": used}
+
+
+def samples_text(names, samples):
+    lines = ["# drumlin-samples-1", *(f"# column {name} = 1: of the posterior" for name in names), ",".join(names)]
+    return "\n".join([*lines, *(",".join(f"{value:.8g}" for value in row) for row in samples)]) + "\n"
+
+
+def write(folder, names, samples, content):
+    """infer.json, samples.csv, corner.png and data.png."""
+    whole_file.write_text(folder / "samples.csv", samples_text(names, samples))
+    whole_file.write_text(folder / "infer.json", json.dumps(content, indent=2, ensure_ascii=False) + "\n")
+    draw("figures/infer_figures.py", folder)
+
+
+def say(text):
+    print(text, flush=True)
+
+
+def main(words):
+    given = json.loads(words)
+    asked, output = question.read_question(given["question"]), pathlib.Path(given["output"])
+    store = pathlib.Path(given["designs"] or output.parent / "designs")
+    designs = [Design(asked, scene, store) for scene in asked.scenes]
+    growing = _drumlin.GrowingOutput(given["output"], "infer", given["existing"] == "--resume", given["existing"] == "--overwrite", [given["question"]],
+                                     FILES, given["sum"])
+    growing.forget("*")
+    growing.save()
+    make(designs, output, given["executor"], say, price_only=given["price_only"])
+    if given["price_only"]:
+        return
+    samples, content = inferred(asked, designs)
+    write(output, list(asked.priors), samples, content | {"provenance": _drumlin.provenance()})
+    for name in FILES:
+        growing.list(name)
+    growing.finish()
+    for line in content["words"]:
+        say(line)
+    say(f"results: {output / 'infer.json'}, {output / 'corner.png'}")
+
+
+FILES = ["infer.json", "samples.csv", "corner.png", "data.png"]
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
