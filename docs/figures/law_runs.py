@@ -39,11 +39,14 @@ def run(kind, inertial, seed=1, count=400, step_factor=1.0, tolerance_factor=1.0
 
 def design():
     """All runs, the most useful first."""
-    of_rigid = [i for i in PLAN if i >= 1e-3]
-    runs = [run(kind, i) for kind in grains() for i in of_rigid]
+    every = [i for i in PLAN if i >= 1e-3]
+    cheap = [i for i in every if i >= 0.01]
+    axis, others = grains()[:len(AXIS)], grains()[len(AXIS):]
+    runs = [run(kind, i) for kind in axis for i in every] + [run(kind, i) for kind in others for i in cheap]
+    runs += [run(kind, i) for i in every if i not in cheap for kind in others]
     runs += [run(dict(DEFAULT, friction=mu), 1e-4) for mu in (0.4, 0.0)]
     checked = [dict(DEFAULT), dict(DEFAULT, friction=0.2)]
-    seeds = [run(kind, i, seed) for seed, i, kind in itertools.product((2, 3), of_rigid, grains())]
+    seeds = [run(kind, i, seed) for seed, i, kind in itertools.product((2, 3), every, grains())]
     costly = [r for r in seeds if r["I"] < 5e-3]
     checks = [run(kind, i, seed, **change) for change in ({"count": 800}, {"step_factor": 0.5, "tolerance_factor": 0.5})
               for kind, i, seed in zip(checked, (0.08, 0.01), (1, 1))]
