@@ -8,8 +8,8 @@ namespace drumlin::apps {
 /// program, and again after a library that sets handlers of its own.
 void end_at_signals();
 
-/// From now on SIGTERM comes when the process ends whose number the variable DRUMLIN_PARENT holds, if it is our
-/// parent: a worker of the Python package that is killed leaves no run behind that nobody waits for.
+/// From now on SIGTERM comes when the process ends whose number the variable DRUMLIN_PARENT holds, if it is
+/// our parent: a worker of the Python package that is killed leaves no run behind that nobody waits for.
 void end_with_parent();
 
 /// From now on a reader of our output that has gone ends the process no longer: for work whose results are

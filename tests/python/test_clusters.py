@@ -86,3 +86,28 @@ def test_a_run_whose_worker_is_killed_goes_on_elsewhere_with_the_same_bytes(fall
     assert len(results(here[0].folder)) == 22
     for one, other in zip(here, there):
         assert results(one.folder) == results(other.folder)
+
+
+def test_a_failed_run_and_an_interruption_reach_the_cluster(falling, tmp_path, cluster, interrupt_when):
+    client, _ = cluster
+    misses = {"solver.max_sweeps": 1, "solver.check_every": 1, "solver.tolerance": 1e-12, "solver.stop_when_unconverged": True}
+    long = {"stages.0.duration_s": 100}
+    interrupt_when(*(tmp_path / f"SWEEP/{number:03}/log.csv" for number in range(3)))
+    with pytest.raises(KeyboardInterrupt):
+        drumlin.sweep(falling, [misses, long, long | {"seed": 2}], tmp_path / "SWEEP", client, report=False)
+    assert [drumlin.read(tmp_path / f"SWEEP/{number:03}/run.json")["status"] for number in range(3)] == ["not converged", "interrupted", "interrupted"]
+    runs = drumlin.sweep(falling, [misses, {}], tmp_path / "OTHER", client, report=False)
+    assert isinstance(runs[0].error, drumlin.NotConvergedError) and runs[1].error is None
+
+
+def test_ranks_of_mpi_compute_what_is_computed_here(falling, tmp_path):
+    pytest.importorskip("mpi4py", reason="python3-mpi4py is not installed")
+    here = drumlin.sweep(falling, {"seed": [1, 2]}, tmp_path / "here", report=False)
+    scene = tmp_path / "here/sweep-scene.toml"
+    words = ["sweep", scene, "--vary", "seed=1:2", "--executor", "mpi", "-o", tmp_path / "there"]
+    with pytest.raises(drumlin.InputError, match="there is one rank"):
+        drumlin.command(*words)
+    done = subprocess.run(["mpirun", "--oversubscribe", "-n", "2", drumlin.program(), *words], capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+    assert done.returncode == 0 and "2 runs, 0 failed" in done.stdout, done.stderr
+    for number, one in enumerate(here):
+        assert results(one.folder) == results(drumlin.read(tmp_path / f"there/{number:03}"))

@@ -111,3 +111,39 @@ def test_a_manifest_that_is_late_is_waited_for(box, tmp_path, monkeypatch):
 def test_an_executor_named_by_a_word():
     with workers_of("local:3") as pool:
         assert pool._max_workers == 3  # pylint: disable=protected-access
+
+
+# --- the report
+
+
+def width_of(folder):
+    return {"width": (float(folder["run.json"]["grains"]), 0.5), "steps": folder["run.json"]["steps"]}
+
+
+def test_the_report_holds_every_run_and_pools_seeds(box, tmp_path, monkeypatch):
+    box["stages"][0]["duration_s"] = 0.01
+    monkeypatch.setattr("drumlin.sweeping.report.FIRST_S", -1)  # renewed as each run ends
+    drawn = []
+    monkeypatch.setattr("drumlin.sweeping.report.draw", lambda script, *words: drawn.append(script))
+    values = {"grains.generated.count": [10, 20], "seed": [1, 2], "solver.tolerance": [1e-3]}
+    runs = drumlin.sweep(box, values, tmp_path / "SWEEP", "local:1", numbers=width_of)
+    assert [run.numbers["width"][0] for run in runs] == [10, 10, 20, 20]
+    content = drumlin.read(tmp_path / "SWEEP/sweep.json")
+    assert content["state"] == "finished" and content["quantities"] == ["width", "steps"] and len(content["runs"]) == 4
+    groups = [(group["changes"]["grains.generated.count"], group["runs"], group["numbers"]["width"]["value"]) for group in content["groups"]]
+    assert groups == [(10, 2, 10), (20, 2, 20)] and content["groups"][0]["numbers"]["width"]["ci99"] == pytest.approx(0.5 / 2**0.5)
+    assert drawn[:2] == ["figures/sweep_figures.py", "pages/write_page.py"] and len(drawn) >= 4
+
+
+def test_the_page_shows_numbers_failures_and_what_still_runs(box, tmp_path):
+    from drumlin.sweeping.report import Report
+
+    report = Report(tmp_path, "A <box>", False, [{"friction": 0.1}, {"friction": 0.2}, {"friction": 0.4}])
+    report.ended(0, drumlin.Outcome({"theta_deg": (20.0, 1.0), "H": 3.0}))
+    report.ended(1, drumlin.Outcome(error=drumlin.NotConvergedError("step 3 <did not>")))
+    assert report.renew("running") == ""
+    page = (tmp_path / "index.html").read_text(encoding="utf-8")
+    for text in ("1 of 3 runs have finished, 1 failed", "20 ± 1", "step 3 &lt;did not&gt;", "A &lt;box&gt;", 'http-equiv="refresh"', "data:image/png"):
+        assert text in page
+    report.renew("finished")
+    assert "http-equiv" not in (tmp_path / "index.html").read_text(encoding="utf-8")

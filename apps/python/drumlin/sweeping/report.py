@@ -11,7 +11,7 @@ from ..figures import whole_file
 from ..study.fits import Scalar, pooled_speeds
 
 SHARE = 0.02  # of the time may go into reports
-FIRST_S = 3  # no report earlier
+FIRST_S = 30  # no report earlier, but at the end
 MOST = 6  # quantities shown unless named
 DRUM = ("theta_deg", "Q", "H", "shear_rate", "lambda", "nu_bulk")  # what says most of a drum
 
