@@ -25,7 +25,7 @@ struct PairOptions {
   std::vector<double> at;  ///< s; empty: of the snapshots
   int seeds = 1, threads = processors_at_hand();
   std::vector<fs::path> runs;  ///< empty: made
-  std::string limits_case = "any";
+  std::string limits_case = "any", executor = "local:1";
   bool scene_only = false, accept_unsteady = false;
   ExistingOutput existing = ExistingOutput::refuse;
 
@@ -34,16 +34,17 @@ struct PairOptions {
     d.add("--law", law, "RHEOLOGY.toml", "Law of the continuum, from calibrate or data/rheology").required();
     d.output(output, "DIR", "Folder for flow.toml, runs, flow and report");
     d.changes(overrides);
-    d.add("--seeds", seeds, "", at_least(1, 100),
-          "Runs of the scene, each with another seed, one after the other");
+    d.add("--seeds", seeds, "", at_least(1, 100), "Runs of the scene, each with another seed");
+    d.add("--executor", executor, "WORKERS",
+          "Where they are computed, as in drumlin sweep; local:1: one after the other")
+        .decides(Decides::nothing);
     d.add("--run", runs, "RUN", "Finished runs of the scene, in place of new ones");
     d.add(
         "--at", at, "TIMES", at_least(0),
         "Seconds since the flow begins at which both sides are compared; absent: up to 40 of the snapshots");
     d.add("--case", limits_case, "NAME",
           "Which limits of data/limits/pair.toml judge it, beside those of any pair");
-    d.add("--scene-only", scene_only,
-          "Leaves the flow scene alone; without --run its material is level");
+    d.add("--scene-only", scene_only, "Leaves the flow scene alone; without --run its material is level");
     d.add("--accept-unsteady", accept_unsteady, "Of layers: compares a run that is not steady, too");
     d.add("--threads", threads, "", at_least(1, most_threads), "Threads of a run").decides(Decides::nothing);
     d.existing(existing, "Goes on where an earlier call was interrupted");
@@ -68,6 +69,7 @@ Json given_of(const PairOptions& options, const std::string& scene, const Result
           {"runs", runs},
           {"seeds", options.seeds},
           {"threads", options.threads},
+          {"executor", options.executor},
           {"at", options.at},
           {"case", options.limits_case},
           {"limits", (data_folder() / "limits" / "pair.toml").string()},

@@ -15,7 +15,7 @@ from streams import by_shell, without_reader
 # What makes a call of a command short, or a call at all; a command that is not named here needs nothing but its options.
 MORE = {"run": SHORT_RUN, "measure": ["--parts", "none"], "export": ["--vtu", "--snapshots", "last"], "cost": ["--effects", "--seconds", "0.01"],
         "calibrate": ["--accept-unsteady", "--draws", "16", "--from", "profiles"], "compare": ["--accept-unsteady"], "flow": ["--set", "output.figures=false"],
-        "pair": ["--scene-only"], "law": ["--extrapolate"]}
+        "pair": ["--scene-only"], "law": ["--extrapolate"], "sweep": SHORT_RUN}
 
 
 class Contract:
@@ -134,7 +134,8 @@ def samples_in(drumlin, here, data, folder):
     (csv / "grains-0.csv").write_text("time_s,x_m,z_m,v_x_m_s,v_z_m_s,radius_m\n0,0,0,0,0,1e-3\n", encoding="utf-8")
     (csv / "import.toml").write_text('format = "drumlin-import-1"\ntitle = "A disc"\n[grains]\ndensity_kg_m3 = 2700\n[csv]\ngrains = ["grains-*.csv"]\n', encoding="utf-8")
     return {"SCENE.toml": scene, "RHEOLOGY.toml": law, "RUN": run, "DIR": run, "FLOWRUN": flow, "FIELDS": flow, "LIMITS.toml": data / "limits" / "bed.toml",
-            "PROBLEM.h5": data / "problems" / "drum-300-mu-0.4-flow.h5", "DESCRIPTION.toml": csv / "import.toml", "INT": "1", "FLOAT": "1"}
+            "PROBLEM.h5": data / "problems" / "drum-300-mu-0.4-flow.h5", "DESCRIPTION.toml": csv / "import.toml", "INT": "1", "FLOAT": "1",
+            "KEY=VALUE:VALUE...": "seed=1:2"}
 
 
 def main():

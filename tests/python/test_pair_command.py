@@ -122,3 +122,15 @@ def test_a_run_of_another_scene_is_refused(tmp_path):
     write_run(tmp_path / "other", drumlin.resolved(silo, {"effects.friction.grain_wall": 0.3}))
     with pytest.raises(InputError, match="effects: is not that of the scene"):
         command.require_same_scene({"scene": drumlin.resolved(silo, {"seed": 7}), "file": "silo"}, tmp_path / "other")
+
+
+def test_seeds_are_runs_on_an_executor(tmp_path, monkeypatch):
+    called = []
+    monkeypatch.setattr(command, "command", lambda *words: called.append(words))
+    given = {"scene": "seed = 5", "runs": [], "seeds": 3, "threads": 2, "executor": "local:2", "existing": "--resume"}
+    folders = command.runs_of(given, tmp_path)
+    assert [pathlib.Path(folder).name for folder in folders] == ["run-5", "run-6", "run-7"]
+    assert {words[words.index("--set") + 1] for words in called} == {"seed=5", "seed=6", "seed=7"} and all("--resume" in words for words in called)
+    monkeypatch.setattr(command, "command", lambda *words: (_ for _ in ()).throw(InputError("refused")))
+    with pytest.raises(InputError, match="refused"):
+        command.runs_of(given, tmp_path)

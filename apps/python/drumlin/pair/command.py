@@ -5,11 +5,13 @@ usage: command.py GIVEN
   output, existing  folder of the results; --resume or --overwrite, for the commands below
   scene, nu         text of the particle scene with all defaults; volume fraction of the law (OUTPUT/rheology.toml)
   law, sum          the law's file; of all that was requested
-  file, runs, seeds, threads, at, case, limits, scene_only, accept_unsteady: as the options say
+  file, runs, seeds, threads, executor, at, case, limits, scene_only, accept_unsteady: as the options say
 """
 
+import functools
 import json
 import math
+import os
 import pathlib
 import subprocess
 import sys
@@ -18,11 +20,12 @@ import tomllib
 import h5py
 import numpy as np
 
-from drumlin.commands import program
+from drumlin.commands import command, program
 from drumlin.figures import whole_file
 from drumlin.pair import layers, scene as scenes
 from drumlin.scenes import toml_of
 from drumlin.study.runs import refused
+from drumlin.sweeping.executors import run_all
 
 UNLIKE = ("title", "seed", "reduced", "output", "solver")  # may differ between a scene and a run of it
 
@@ -112,11 +115,17 @@ def runs_of(given, output):
         require_same_scene(given, folder)
     if given["runs"]:
         return given["runs"]
-    first, folders = tomllib.loads(given["scene"]).get("seed", 0), []
-    for seed in range(first, first + given["seeds"]):
-        folders.append(str(output / f"run-{seed}"))
-        tell(words=["run", str(output / "scene.toml"), "--set", f"seed={seed}", "--threads", str(given["threads"]), "-o", folders[-1], given["existing"] or "--resume"])
-    return folders
+    first = tomllib.loads(given["scene"]).get("seed", 0)
+    folders = {seed: str(output / f"run-{seed}") for seed in range(first, first + given["seeds"])}
+    run = ["run", str(output / "scene.toml"), "--threads", str(given["threads"]), given["existing"] or "--resume"]
+    if len(folders) == 1:  # shows its progress
+        tell(words=[*run, "--set", f"seed={first}", "-o", folders[first]])
+    else:
+        jobs = [functools.partial(command, *run, "--set", f"seed={seed}", "-o", os.path.abspath(folder)) for seed, folder in folders.items()]
+        failed = [outcome.error for outcome in run_all(jobs, output, given["executor"]) if outcome.error is not None]
+        if failed:
+            raise failed[0]
+    return list(folders.values())
 
 
 def times_of(given, scene, first, end):
