@@ -1,12 +1,15 @@
-// drumlin export: a run as files that ParaView reads, in SI (docs/formats/vtu.md); or what was measured of
-// it, small enough to be kept and passed on (docs/formats/measured.md).
+// drumlin export: a run as files of other programs, in SI (docs/formats/vtu.md, docs/formats/export.md); or
+// what was measured of it, small enough to be kept and passed on (docs/formats/measured.md).
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <nlohmann/json.hpp>
 
 #include "apps/command_line/command.hpp"
 #include "apps/commands/run_report.hpp"
+#include "apps/output/figures.hpp"
 #include "apps/output/results.hpp"
 #include "apps/process/progress.hpp"
 #include "coupling/core/basics/errors.hpp"
@@ -15,15 +18,30 @@
 #include "coupling/core/results/measured_run.hpp"
 #include "particles/io/run_grids.hpp"
 #include "particles/io/snapshot_file.hpp"
+#include "particles/io/snapshot_list.hpp"
 
 namespace drumlin::apps {
 namespace {
 
 namespace fs = std::filesystem;
 
+/// What other programs read: the word for the format, and the file that is then there (exporting/command.py).
+const std::map<std::string, std::string>& other_formats() {
+  static const std::map<std::string, std::string> formats{
+      {"gsd", "run.gsd"}, {"lammps", "grains.dump"}, {"vtkhdf", "run.vtkhdf"}, {"xyz", "run.xyz"}};
+  return formats;
+}
+
+std::vector<std::string> names_of_formats() {
+  std::vector<std::string> names;
+  for (const auto& [name, file] : other_formats()) names.push_back(name);
+  return names;
+}
+
 struct ExportOptions {
   fs::path run;
   std::optional<fs::path> output;
+  std::string format;  ///< of another program; empty: none
   bool vtu = false, measurements = false;
   std::string snapshots = "all";
   ExistingOutput existing = ExistingOutput::refuse;
@@ -35,6 +53,10 @@ struct ExportOptions {
     d.add("--vtu", vtu, "VTK files with grains, contacts and walls, for ParaView")
         .excludes("--measurements")
         .decides(Decides::nothing);
+    d.add("--to", format, "FORMAT", one_of(names_of_formats()),
+          "One file of all snapshots that other programs read; lammps: one of grains, one of contacts")
+        .excludes("--vtu")
+        .excludes("--measurements");
     d.add(
          "--measurements", measurements,
          "What was measured, without snapshots and figures and with packed maps: what calibrate, compare and "
@@ -44,7 +66,7 @@ struct ExportOptions {
     d.add("--snapshots", snapshots, "LIST",
           "Which snapshots: all, last, or numbers and ranges such as 1,5,10-20")
         .decides(measurements ? Decides::nothing : Decides::value);
-    d.output(output, "DIR", "Folder for the files; standard with --vtu: RUN/vtu");
+    d.output(output, "DIR", "Folder for the files; standard: RUN/vtu, RUN/FORMAT");
     d.existing(existing);
   }
 };
@@ -139,9 +161,33 @@ int export_vtu(const ExportOptions& options) {
   });
 }
 
+int export_to(const ExportOptions& options) {
+  const fs::path folder = options.output.value_or(options.run / options.format);
+  const auto request = results_of(options, "export", folder, other_formats().at(options.format));
+  return make_results(request, [&](Results& results) -> Made {
+    const ResultFolder run = open_result_folder(options.run);
+    const auto files = particles::listed_snapshots(options.run, particles::snapshot_files(options.run),
+                                                   "--snapshots", options.snapshots);
+    std::vector<std::string> words{options.format, results.begin().string()};
+    for (const fs::path& file : files)
+      words.push_back(checked_file(run, "snapshots/" + file.filename().string()).string());
+    Progress progress;
+    (void)output_of_script("../exporting/command.py", words, [&](const std::string& line) {
+      if (!line.starts_with("{")) return false;
+      const auto done = nlohmann::json::parse(line);
+      if (progress.due())
+        progress.show(fmt::format("export  {} of {} snapshots", done.at("done").dump(), files.size()));
+      return true;
+    });
+    progress.finish();
+    return {fmt::format("{}: {} snapshots as {}\n", folder.string(), files.size(), options.format)};
+  });
+}
+
 int export_run(const ExportOptions& options) {
   if (options.measurements) return export_measurements(options);
-  if (!options.vtu) throw InputError("export: says no format (allowed: --vtu or --measurements)");
+  if (!options.format.empty()) return export_to(options);
+  if (!options.vtu) throw InputError("export: says no format (allowed: --vtu, --to FORMAT or --measurements)");
   return export_vtu(options);
 }
 

@@ -345,6 +345,11 @@ def exports(drumlin, one_disc, periodic, folder):
     require(math.isclose(quarter, 2e-3 * math.sin(10 * math.pi * 0.12), rel_tol=1e-5), f"floor at {quarter} m")
 
     # No spin, no friction: no array of it; a disc in the air has no contact, and the file says so.
+    drumlin("export", periodic, "--to", "vtkhdf")
+    drumlin("export", periodic, "--to", "lammps", "-o", folder / "dumps", "--snapshots", "last")
+    require((periodic / "vtkhdf" / "run.vtkhdf").stat().st_size > 0 and (folder / "dumps" / "contacts.dump").read_text().startswith("ITEM: UNITS"), "no files")
+    drumlin("export", periodic, "--to", "vtkhdf", "--vtu", code=2)
+    drumlin("export", periodic, "--to", "vtk", code=2)
     drumlin("export", one_disc, "--vtu", "-o", folder / "export", "--snapshots", "1")
     require("spin_clockwise_rad_s" not in arrays_of(folder / "export" / "grains" / "000001.vtu"), "a spin that is not there")
     none = arrays_of(folder / "export" / "contacts" / "000001.vtu")

@@ -69,6 +69,8 @@ class Grains(GsdFrames):
         particles, units = stored.particles, self.units
         columns = {"id": Column(np.arange(particles.N, dtype=float), "number")}
         position = np.array(particles.position if particles.position is not None else np.zeros((0, 3)), float)
+        if particles.image is not None and stored.configuration.box is not None:  # of the box that each has left
+            position += np.array(particles.image, float) @ (self._cell_of(stored).edges.T / units.length_unit_m)
         velocity = np.array(particles.velocity if particles.velocity is not None else np.zeros_like(position), float)
         for k, axis in enumerate("xyz"):
             columns[axis] = Column(position[:, k] * units.of("length"), "length")

@@ -9,7 +9,7 @@ from .units import force_unit
 NAMES = {"radius": ("radius", "radii", "Radius", "radius_m"), "diameter": ("diameter", "Diameter"), "id": ("id", "ID", "Id", "grain"),
          "type": ("type", "materialId", "speciesIndex"), "velocity": ("v", "velocity", "Velocity", "linVelVec", "vel", "velocity_m_s"),
          "omega": ("omega", "angVelVec", "AngularVelocity", "omega_rad_s")}
-FORCES = ("force_N",)  # of drumlin export, on grain_i; of other files contact_forces of the description
+FORCES, ENDS = ("force_N", "force_N_m"), ("grain_i", "grain_or_wall_j")  # of drumlin export; of other files the description names them
 
 
 def grain_columns(points, arrays, units, unused):
@@ -48,11 +48,12 @@ def contact_columns(ends, arrays, source, units, refuse):
             refuse(name, "is no array of vectors of the contacts", ", ".join(arrays))
         return np.asarray(arrays[name], float).reshape(len(ends), 3)
 
-    if source["contact_ids"]:
-        for name in source["contact_ids"]:
+    ids = source["contact_ids"] or (ENDS if set(ENDS) <= arrays.keys() else ())
+    if ids:
+        for name in ids:
             if name not in arrays:
                 refuse(name, "no such array of the contacts", ", ".join(arrays))
-        ends = np.array([np.asarray(arrays[name], float) for name in source["contact_ids"]]).T.reshape(-1, 2)
+        ends = np.array([np.asarray(arrays[name], float) for name in ids]).T.reshape(-1, 2)
     ends = np.where(np.isin(ends, source["wall_ids"]), -1, ends).astype(float)
     if source["force_on"] == "second":
         ends = ends[:, ::-1]
