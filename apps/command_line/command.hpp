@@ -36,6 +36,7 @@ struct Command {
   std::string name, sentence;
   std::function<std::unique_ptr<Call>()> call;  ///< with the options as they are by default
   std::vector<Command> subcommands = {};        ///< in place of a call
+  std::vector<std::string> examples = {};       ///< as a user types them
 };
 
 template <class Options>

@@ -1,9 +1,12 @@
 #include "apps/command_line/command_line.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <numeric>
+#include <span>
 #include <sstream>
 #include <type_traits>
 #include <utility>
@@ -11,6 +14,7 @@
 #include "apps/command_line/completion.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/basics/provenance.hpp"
+#include "coupling/core/basics/suggestion.hpp"
 
 namespace drumlin::apps {
 
@@ -31,30 +35,41 @@ void refuse_unless_utf8(const std::string& word) {
   }
 }
 
-/// Letters to add, leave out or replace that make one word of the other (Levenshtein).
-std::size_t edits(const std::string& from, const std::string& to) {
-  std::vector<std::size_t> row(to.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t k = 1; k <= from.size(); ++k) {
-    std::size_t diagonal = std::exchange(row[0], k);
-    for (std::size_t m = 1; m <= to.size(); ++m) {
-      const std::size_t replaced = diagonal + (from[k - 1] != to[m - 1]);
-      diagonal = std::exchange(row[m], std::min({row[m] + 1, row[m - 1] + 1, replaced}));
-    }
-  }
-  return row.back();
+std::vector<std::string> names_of(const std::vector<Command>& commands) {
+  std::vector<std::string> names;
+  for (const Command& command : commands) names.push_back(command.name);
+  return names;
 }
 
-void refuse_unknown_command(const std::string& word, const std::vector<Command>& commands) {
-  if (word.starts_with("-")) return;
-  std::string nearest;
-  for (const Command& command : commands) {
-    if (command.name == word) return;
-    if (nearest.empty() || edits(word, command.name) < edits(word, nearest)) nearest = command.name;
+/// Of the words that name a command and its subcommand.
+void refuse_unknown_command(std::span<const char* const> words, const std::vector<Command>& commands,
+                            const std::string& parent) {
+  if (words.empty() || std::string_view(words[0]).starts_with("-")) return;
+  const auto found = std::ranges::find(commands, std::string_view(words[0]), &Command::name);
+  if (found == commands.end()) {
+    const std::string meant = suggestion(words[0], names_of(commands));
+    throw InputError(fmt::format(
+        "no command is called \"{}{}\"{}", parent.substr(8), words[0],
+        meant.empty() ? fmt::format("; {} --help lists them", parent.substr(0, parent.size() - 1)) : meant));
   }
-  const bool near = edits(word, nearest) <= 1 + word.size() / 3;
-  throw InputError("no command is called \"" + word + "\"" +
-                   (near ? "; did you mean drumlin " + nearest + "?" : "; drumlin --help lists them"));
+  if (!found->subcommands.empty())
+    refuse_unknown_command(words.subspan(1), found->subcommands, parent + found->name + " ");
+}
+
+/// What follows the options in the help of a command.
+std::string examples_text(const Command& command) {
+  return fmt::format("Examples:\n  {}\n\n{}", fmt::join(command.examples, "\n  "), notes);
+}
+
+/// One of the choices.
+CLI::Validator one_of_words(const std::vector<std::string>& choices) {
+  return CLI::Validator(
+      [choices](std::string& text) {
+        if (std::ranges::find(choices, text) != choices.end()) return std::string();
+        return fmt::format("{} is not one of {}{}", text, fmt::join(choices, ", "),
+                           suggestion(text, choices));
+      },
+      "");
 }
 
 /// A number within its range, as text of the command line.
@@ -110,7 +125,7 @@ struct Adding {
   CLI::Option* held(CLI::Option* added) const {
     if constexpr (std::is_arithmetic_v<T>)
       if (option.allowed) added->check(within<T>(*option.allowed));
-    if (!option.choices().empty()) added->check(CLI::IsMember(option.choices()));
+    if (!option.choices().empty()) added->check(one_of_words(option.choices()));
     return added->type_name(option.kind);
   }
 };
@@ -140,7 +155,7 @@ class CommandLine {
             "--completion",
             [&commands, shows](const std::string& shell) { shows(completion(shell, commands)); },
             "Prints a script that completes commands and options: source <(drumlin --completion bash)")
-        ->check(CLI::IsMember({"bash", "zsh", "fish"}))
+        ->check(one_of_words({"bash", "zsh", "fish"}))
         ->type_name("SHELL");
     app_.add_flag_callback(
         "--man", [&commands, shows] { shows(man_page(commands, notes)); },
@@ -160,16 +175,31 @@ class CommandLine {
       if (app_.exit(error, shown, fault) == 0) return TextToShow{shown.str()};
       std::string text = fault.str();
       while (!text.empty() && text.back() == '\n') text.pop_back();
-      throw InputError(text);
+      throw InputError(text + meant_option());
     }
     return std::move(*chosen_);
   }
 
  private:
+  /// For a word that looks like an option and is none.
+  std::string meant_option() const {
+    const CLI::App* app = &app_;
+    while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
+    std::vector<std::string> known;
+    for (const CLI::Option* option : app->get_options())
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    for (const std::string& word : app->remaining())
+      if (word.starts_with("--"))
+        if (const std::string meant = suggestion(word.substr(0, word.find('=')), known); !meant.empty())
+          return "\n" + word + meant;
+    return "";
+  }
+
   void add(CLI::App& app, const std::vector<Command>& commands) {
     app.require_subcommand(1);
     for (const Command& command : commands) {
       CLI::App* added = app.add_subcommand(command.name, command.sentence);
+      if (!command.examples.empty()) added->footer(examples_text(command));
       if (!command.call) {
         add(*added, command.subcommands);
         continue;
@@ -190,7 +220,7 @@ class CommandLine {
 std::variant<TextToShow, std::unique_ptr<Call>> parse_command_line(int argc, const char* const* argv,
                                                                    const std::vector<Command>& commands) {
   for (int k = 1; k < argc; ++k) refuse_unless_utf8(argv[k]);
-  if (argc > 1) refuse_unknown_command(argv[1], commands);
+  refuse_unknown_command({argv + 1, argv + std::max(argc, 1)}, commands, "drumlin ");
   return CommandLine(commands).parse(argc, argv);
 }
 

@@ -5,7 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/process/program_files.hpp"
 #include "apps/process/request_sum.hpp"
 
 namespace drumlin::apps {
@@ -82,11 +81,12 @@ std::string Description::linked_folder(const std::string& name) {
   return is_link ? fs::canonical(link).string() : name;
 }
 
-void Description::scene(fs::path& scene, const std::string& sentence) {
+void Description::scene(fs::path& scene, const std::string& sentence,
+                        std::string (*read)(const std::string&)) {
   add("scene", scene, "SCENE.toml", sentence + ", or the name of one that drumlin scene list names")
       .required()
       .decides(Decides::nothing)
-      .read = shipped_scene;
+      .read = read;
 }
 
 void Description::changes(std::vector<std::string>& overrides) {

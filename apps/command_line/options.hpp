@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "apps/process/program_files.hpp"
 #include "coupling/core/documents/key_spec.hpp"
 
 namespace drumlin::apps {
@@ -101,7 +102,16 @@ class Description {
   }
   /// The scene that a command reads: a file, or a shipped scene by its name; --set changes its keys. Both are
   /// summed by the command, as the scene that it has read.
-  void scene(std::filesystem::path& scene, const std::string& sentence);
+  void scene(std::filesystem::path& scene, const std::string& sentence,
+             std::string (*read)(const std::string&) = shipped_scene);
+  /// A law: a file, or a shipped one by its name.
+  template <class Path>
+  Option& law(std::string names, Path& law, const std::string& sentence) {
+    Option& option = add(std::move(names), law, "RHEOLOGY.toml",
+                         sentence + ", a file from calibrate or the name of one of data/rheology");
+    option.read = shipped_law;
+    return option;
+  }
   void changes(std::vector<std::string>& overrides);
   /// Where the results go: -o; a path has to be given, an optional one not.
   template <class Path>

@@ -23,7 +23,7 @@ struct CostOptions {
   ExistingOutput existing = ExistingOutput::refuse;
 
   void describe(Description& d) {
-    d.scene(scene, "Scene of particles or of a flow");
+    d.scene(scene, "Scene of particles or of a flow", shipped_scene_of_any_kind);
     d.add("--sweep", sweep, "NAME[=VALUE:...],...",
           "What is varied, each with its values or standard ones, e.g. tolerance=1e-2:1e-3,step; particles: "
           "solver, tolerance, step; flows: mesh, eps, tolerance [all]");
@@ -36,7 +36,7 @@ struct CostOptions {
           "Particles: finished run of the scene to start from; standard: the beginning of the last stage, "
           "which "
           "is run up to first");
-    d.add("--rheology", rheology, "RHEOLOGY.toml", "Flows: law, from calibrate or data/rheology");
+    d.law("--rheology", rheology, "Flows: law");
     d.add("--ranks", ranks, "N,N,...", at_least(1, 1024),
           "Flows: numbers of MPI processes on which each is solved, its times listed; standard: 1");
     d.add("--neighbour", neighbour, "KEY=VALUE",

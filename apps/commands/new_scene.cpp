@@ -1,10 +1,11 @@
-// drumlin new: a commented scene to start from.
+// drumlin new: a commented scene of grains, or of a flow, to start from.
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "apps/command_line/command.hpp"
 #include "apps/commands/scene_templates.hpp"
+#include "apps/output/next_step.hpp"
 #include "apps/output/output_folder.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
@@ -24,7 +25,8 @@ struct NewSceneOptions {
   void describe(Description& d) {
     std::vector<std::string> kinds;
     for (const SceneTemplate& one : all_scene_templates()) kinds.emplace_back(one.name);
-    d.add("kind", kind, "KIND", one_of(kinds), "What flows").required();
+    d.add("kind", kind, "KIND", one_of(kinds), "What flows: of grains, or with -flow as a continuum")
+        .required();
     d.output(output, "SCENE.toml", "File for the scene");
     d.overwrite(existing, "Replaces a file that is there");
   }
@@ -55,14 +57,16 @@ int new_scene(const NewSceneOptions& options) {
                                   [&](const SceneTemplate& one) { return one.name == options.kind; });
   const FolderLock lock = prepare_output_file(options.output, options.existing);
   replace_file(options.output, named(found->text, options.output.string()));
-  print_out(
-      fmt::format("{0}: a commented scene; next:\n  drumlin scene check {0}\n  drumlin run {0} -o RUN\n",
-                  options.output.string()));
+  const bool is_flow = options.kind.ends_with("-flow");
+  print_out(fmt::format("{}: a commented {}scene\n", options.output.string(), is_flow ? "flow " : "") +
+            next_step(is_flow ? "new flow" : "new", Flowing::open, Verdict::done, options.output.string()));
   return static_cast<int>(ExitCode::done);
 }
 
 }  // namespace
 
-Command new_scene_command() { return command("new", "Writes a commented scene to start from", new_scene); }
+Command new_scene_command() {
+  return command("new", "Writes a commented scene of grains or of a flow to start from", new_scene);
+}
 
 }  // namespace drumlin::apps

@@ -31,7 +31,7 @@ struct PairOptions {
 
   void describe(Description& d) {
     d.scene(scene, "Particle scene");
-    d.add("--law", law, "RHEOLOGY.toml", "Law of the continuum, from calibrate or data/rheology").required();
+    d.law("--law", law, "Law of the continuum").required();
     d.output(output, "DIR", "Folder for flow.toml, runs, flow and report");
     d.changes(overrides);
     d.add("--seeds", seeds, "", at_least(1, 100), "Runs of the scene, each with another seed");

@@ -21,6 +21,7 @@
 #include "apps/commands/start_grains.hpp"
 #include "apps/commands/wall_table.hpp"
 #include "apps/json/json_file.hpp"
+#include "apps/output/next_step.hpp"
 #include "apps/output/output_folder.hpp"
 #include "apps/process/interruption.hpp"
 #include "apps/process/progress.hpp"
@@ -97,8 +98,7 @@ class ParticleRun {
     output_.finish();
     progress_.show(line_of_progress());
     progress_.finish();
-    print_out(fmt::format("{}{}next: drumlin measure {}\n", run_summary(progress_now()), accuracy_text(),
-                          options_.output.string()));
+    print_out(run_summary(progress_now()) + accuracy_text() + next_text());
     return static_cast<int>(exit_code_of_missed(totals_.unconverged_steps, simulation_.state().step));
   }
 
@@ -107,6 +107,18 @@ class ParticleRun {
   struct Interrupted {
     int signal;
   };
+
+  std::string next_text() const {
+    const bool in_a_drum = std::ranges::any_of(scene_.walls, [](const particles::Wall& wall) {
+      return std::holds_alternative<particles::ContainerShape>(wall.shape);
+    });
+    return next_step("run",
+                     in_a_drum           ? Flowing::drum
+                     : scene_.periodic_x ? Flowing::layers
+                                         : Flowing::open,
+                     simulation_.state().snapshots > 0 ? Verdict::done : Verdict::no_snapshots,
+                     options_.output.string());
+  }
 
   void tell_accuracy() {
     stretches_ = to_json(particles::paired_stretches(

@@ -1,4 +1,4 @@
-// drumlin scene check | show | keys | list
+// drumlin scene check | show | list | file | keys
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,6 +28,18 @@ struct SceneOptions {
   void describe(Description& d) {
     d.scene(scene, "Scene file");
     d.changes(overrides);
+  }
+};
+
+struct FileOptions {
+  std::string name;
+  bool law = false;
+
+  void describe(Description& d) {
+    d.add("name", name, "NAME",
+          "Of a scene that drumlin scene list names; with --law of one of data/rheology")
+        .required();
+    d.add("--law", law, "The file of a law");
   }
 };
 
@@ -96,6 +108,11 @@ int list_scenes(const NoOptions&) {
   return 0;
 }
 
+int print_file(const FileOptions& options) {
+  print_out((options.law ? shipped_law(options.name) : shipped_scene_of_any_kind(options.name)) + "\n");
+  return 0;
+}
+
 int show_scene(const SceneOptions& options) {
   print_out(particles::scene_text(particles::read_scene(options.scene, options.overrides)));
   return 0;
@@ -116,6 +133,7 @@ Command scene_command() {
           {command("check", "Validates a scene and says what it amounts to", check_scene),
            command("show", "Prints a scene with all its defaults", show_scene),
            command("list", "Lists the shipped scenes, which every command finds by their names", list_scenes),
+           command("file", "Says where a shipped scene or law lies, to copy it", print_file),
            command("keys", "Lists every key with unit, range, default and meaning", list_keys)}};
 }
 

@@ -14,8 +14,8 @@ struct FlowOptions {
   ExistingOutput existing = ExistingOutput::refuse;
 
   void describe(Description& d) {
-    d.scene(scene, "Flow scene");
-    d.add("--rheology", rheology, "RHEOLOGY.toml", "Law, from calibrate or data/rheology").required();
+    d.scene(scene, "Flow scene", shipped_flow_scene);
+    d.law("--rheology", rheology, "Law").required();
     d.output(output, "FLOWRUN", "Folder for the results");
     d.add("--from", from, "FLOWRUN",
           "Finished flow to start from: same geometry and mesh, other speed or law");

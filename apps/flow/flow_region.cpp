@@ -9,6 +9,7 @@
 #include "apps/flow/flow_json.hpp"
 #include "apps/json/json_file.hpp"
 #include "apps/output/figures.hpp"
+#include "apps/output/next_step.hpp"
 #include "apps/output/output_folder.hpp"
 #include "apps/process/interruption.hpp"
 #include "apps/process/request_sum.hpp"
@@ -307,7 +308,8 @@ int solve_region_scene(const FlowOptions& options, const continuum::FemRuntime& 
     draw_figures("region_figures.py", {folder.string()});
   write_json(folder / result_file, content);
   output.finish();
-  print_out(finished_region_text(folder, content));
+  print_out(finished_region_text(folder, content) +
+            next_step("flow", Flowing::open, Verdict::done, folder.string()));
   return static_cast<int>(ExitCode::done);
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/output/next_step.hpp"
+
 namespace drumlin::apps {
 namespace {
 
@@ -52,21 +54,27 @@ std::string plain_text(const FinishedFlow& flow) {
   return text + fmt::format(", v_x off by {:.1f} % (rms over the profile)\n", 100 * flow.plain->v_x_change);
 }
 
+/// Effects by their size in this flow: those that its equations leave out, and those that they hold.
 std::string neglected_text(const FinishedFlow& flow) {
   if (!flow.findings.neglected) return "";
   const continuum::NeglectedTerms& rest = *flow.findings.neglected;
   const continuum::FlowEffects& effects = flow.asked.scene.effects;
-  std::string text = fmt::format(
-      "neglected: {}inertia {:.2g} of gravity (rms; at most {:.2g}), {}a surface that would rise by {:.2g} d "
-      "(rms), {}"
-      "a wall share of {:.2g} that requires friction above 0.95",
-      has_inertia(flow.asked.scene) ? "not " : "", rest.inertia_rms, rest.inertia_largest,
-      effects.moving_surface ? "not " : "", rest.surface_height_rms, effects.wall_slip ? "not " : "",
-      rest.wall_friction);
-  if (!effects.nonlocal && rest.nonlocal)
-    text += fmt::format(", fluidity that spreads over 1 d ({:.2g}, rms of its ln where it flows)",
-                        *rest.nonlocal);
-  return text + "\n";
+  std::string left_out, held;
+  const auto add = [&](bool is_held, const std::string& words) {
+    std::string& text = is_held ? held : left_out;
+    text += (text.empty() ? "" : "; ") + words;
+  };
+  add(has_inertia(flow.asked.scene), fmt::format("inertia, {:.2g} of gravity (rms; at most {:.2g})",
+                                                 rest.inertia_rms, rest.inertia_largest));
+  add(effects.moving_surface.has_value(),
+      fmt::format("a moving surface, {:.2g} d from the level one (rms)", rest.surface_height_rms));
+  add(effects.wall_slip.has_value(),
+      fmt::format("slip at the wall, of which {:.0f} % needs friction above 0.95", 100 * rest.wall_friction));
+  if (rest.nonlocal)
+    add(effects.nonlocal.has_value(),
+        fmt::format("fluidity that spreads over 1 d, {:.2g} (rms of its ln where it flows)", *rest.nonlocal));
+  return (left_out.empty() ? "" : "effects left out, by their size in this flow: " + left_out + "\n") +
+         (held.empty() ? "" : "effects of the equations: " + held + "\n");
 }
 
 std::string summary_text(const fs::path& folder, const FinishedFlow& flow) {
@@ -159,9 +167,10 @@ std::string accuracy_text(const FinishedFlow& flow) {
 }  // namespace
 
 std::string finished_text(const fs::path& folder, const FinishedFlow& flow) {
+  const bool of_a_drum = std::holds_alternative<continuum::FlowDrum>(flow.asked.scene.geometry);
   return checks_text(flow) + plain_text(flow) + sensitivity_text(flow) + law_band_text(flow) +
          limits_text(flow) + summary_text(folder, flow) + accuracy_text(flow) +
-         fmt::format("next: drumlin compare RUN {} -o REPORT\n", folder.string());
+         next_step("flow", of_a_drum ? Flowing::drum : Flowing::layers, Verdict::done, folder.string());
 }
 
 }  // namespace drumlin::apps

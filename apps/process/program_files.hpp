@@ -4,14 +4,25 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace drumlin::apps {
 
 /// Scenes, laws, records and the paper's numbers. Throws IoError where there are none.
 std::filesystem::path data_folder();
 std::optional<std::filesystem::path> data_folder_if_any();
-/// The shipped scene of that name, with or without ".toml", where no file has it; else the name itself.
+/// Names of shipped files without ".toml", sorted: of data/scenes but for flows, of its flows, of
+/// data/rheology.
+std::vector<std::string> shipped_scenes();
+std::vector<std::string> shipped_flow_scenes();
+std::vector<std::string> shipped_laws();
+/// The shipped file of that name, with or without ".toml", where no file has it; a folder does not count. A
+/// name with a folder stands for itself. Throws InputError with what may have been meant where there is
+/// neither.
 std::string shipped_scene(const std::string& name);
+std::string shipped_flow_scene(const std::string& name);
+std::string shipped_law(const std::string& name);
+std::string shipped_scene_of_any_kind(const std::string& name);
 /// The Python scripts that draw; the templates of pages stand beside it. Throws IoError likewise.
 std::filesystem::path figures_folder();
 /// The Python that draws: that of the wheel which the program is of, else the one of the build.

@@ -81,6 +81,16 @@ bool judge_energy(const TimeSeries& series, std::size_t batches, Steadiness& res
   return !(result.energy.ci99 > energy_too_vague);
 }
 
+/// Whether anything flows, against the drum where there is one.
+bool judge_path(const TimeSeries& series, Steadiness& result) {
+  if (series.speed.size() < 2) return true;
+  const double time = series.time.back() - series.time.front(), path = statistics::mean(series.speed) * time;
+  result.flows = !(path < least_path);
+  if (!result.flows)
+    object(result, fmt::format("nothing flows: in {:.3g} sqrt(d/g) a grain moves by {:.1g} d", time, path));
+  return result.flows;
+}
+
 /// The change of a quantity over its mean; NaN where the mean is not known to half its size.
 Drift relative_drift(std::span<const double> values, std::size_t batches) {
   const double mean = values.empty() ? 0 : statistics::mean(values);
@@ -142,6 +152,7 @@ Steadiness steadiness(const TimeSeries& series, double rotation, std::size_t bat
       object(result,
              fmt::format("{:.2f} turns before the first snapshot are less than one", result.turns_before));
   }
+  if (!judge_path(series, result)) return result;
   const bool energy_is_vague = !judge_energy(series, batches, result);
   if (!series.mass_angle.empty()) {
     std::vector<double> degrees;

@@ -25,6 +25,7 @@ Drift trend_over(std::span<const double> blocks);
 /// scatters too much to tell, pressure, shear stress and shear rate of the whole packing judge in its place.
 struct Steadiness {
   bool steady = true;
+  bool flows = true;  ///< false: a grain moves by less than least_path over all snapshots, and is not judged
   std::vector<std::string> reasons;                         ///< why not, as sentences; empty when steady
   double turns = std::numeric_limits<double>::quiet_NaN();  ///< measured; NaN without a turning wall
   double turns_before = std::numeric_limits<double>::quiet_NaN();  ///< of the wall before that
@@ -38,6 +39,9 @@ struct Steadiness {
   Drift pressure, shear_stress, shear_rate;
   std::string judged_by;  ///< "kinetic energy", "kinetic energy and slope", "stress and shear rate"
 };
+
+/// d: a layer that creeps or rests is no flow, however constant its energy.
+inline constexpr double least_path = 0.1;
 
 /// `rotation`: spin of the wall; `batches` of the intervals, half of them in each half of the series.
 Steadiness steadiness(const TimeSeries& series, double rotation, std::size_t batches);

@@ -43,7 +43,7 @@ def main():
         (folder / "full").mkdir()
         flow = ["flow", here / "tiny-drum-flow.toml", "--rheology", data / "rheology" / "paper.toml", "-o", output]
         for words, told in ((["run", scene, "-o", output, "--accuracy", record], ""), (["run", scene, "-o", output, "--set", "no_such_key=1"], "no_such_key"),
-                            ([*flow, "--from", folder / "full"], "full"), (["jump"], "no command"), (["mesure", "x"], "did you mean drumlin measure?")):
+                            ([*flow, "--from", folder / "full"], "full"), (["jump"], "no command"), (["mesure", "x"], "did you mean \"measure\"?")):
             _, said = drumlin(*words, code=2)
             require(said.strip() and told in said and not output.exists(), f"{words}: {said}")
         cell_too_short(drumlin, data, folder)

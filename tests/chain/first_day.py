@@ -1,36 +1,46 @@
 """What somebody meets on the first day: scenes to start from, a page for a run, and completion in a shell.
 
-usage: first_day.py DRUMLIN FOLDER_OF_TEMPLATES
+usage: first_day.py DRUMLIN FOLDER_OF_TEMPLATES [--chains]
+  --chains  the scenes as a user types them, to their law or pair, and no other part
 """
 
 import re
 import subprocess
+import sys
+import tomllib
 
 from command import given, read_json, require
 
-# What makes a run of each scene short.
+# What makes a run of each scene of grains short where its numbers do not matter.
 SHORT = {"drum": ["stages.0.duration_s=0.02", "stages.1.turns=0.005", "stages.2.turns=0.01", "stages.2.snapshots=3"],
-         "shear": ["stages.0.duration_s=0.02", "stages.1.duration_s=0.02", "stages.1.snapshots=2"],
+         "shear": ["stages.0.duration_s=0.02", "stages.1.duration_s=0.02", "stages.2.duration_s=0.02", "stages.2.snapshots=2"],
          "chute": ["stages.0.duration_s=0.02", "stages.1.duration_s=0.02", "stages.1.snapshots=4"],
          "silo": ["stages.0.duration_s=0.02", "stages.1.duration_s=0.02", "stages.1.snapshots=3"]}
+FLOWS = ["drum-flow", "shear-flow", "chute-flow", "silo-flow"]
+
+
+def written(drumlin, templates, kind, folder):
+    """A kind is written as data/templates holds it, with its own name, comments and no long line, and not written over."""
+    file = folder / f"{kind}.toml"
+    said, _ = drumlin("new", kind, "-o", file)
+    text = file.read_text(encoding="utf-8")
+    require(f"{file}: a commented" in said and "next: drumlin " in said, said)
+    require(text == (templates / f"{kind}.toml").read_text(encoding="utf-8").replace("THIS.toml", str(file)), f"{kind}: another text")
+    commented = [line for line in text.splitlines() if "#" in line]
+    require(len(commented) > 10 and max(map(len, text.splitlines())) <= 160 + len(str(file)), f"{kind}: hardly a comment, or long lines")
+    _, refused = drumlin("new", kind, "-o", file, code=2)
+    require("exists already" in refused, refused)
+    drumlin("new", kind, "-o", file, "--overwrite")
+    return file
 
 
 def scenes(drumlin, templates, folder):
-    """Each kind is written, checks, runs, and is not written over; the program holds what data/templates holds."""
-    require(sorted(file.stem for file in templates.glob("*.toml")) == sorted(SHORT), "a template without a test, or the other way round")
+    """Each kind of grains checks and runs; the program holds what data/templates holds."""
+    require(sorted(file.stem for file in templates.glob("*.toml")) == sorted([*SHORT, *FLOWS]), "a template without a test, or the other way round")
     for kind, changes in SHORT.items():
-        file = folder / f"{kind}.toml"
-        said, _ = drumlin("new", kind, "-o", file)
-        text = file.read_text(encoding="utf-8")
-        require(str(file) in said, said)
-        require(text == (templates / f"{kind}.toml").read_text(encoding="utf-8").replace("THIS.toml", str(file)), f"{kind}: another text")
-        commented = [line for line in text.splitlines() if "#" in line]
-        require(len(commented) > 12 and max(map(len, text.splitlines())) <= 150, f"{kind}: hardly a comment, or long lines")
+        file = written(drumlin, templates, kind, folder)
         checked, _ = drumlin("scene", "check", file)
         require(": ok\n" in checked and "warning" not in checked, checked)
-        _, refused = drumlin("new", kind, "-o", file, code=2)
-        require("exists already" in refused, refused)
-        drumlin("new", kind, "-o", file, "--overwrite")
         drumlin("run", file, "-o", folder / kind, *(word for change in changes for word in ("--set", change)))
         require(read_json(folder / kind / "run.json")["status"] == "finished", f"{kind} does not run")
     # A name that a comment cannot hold is not put into one.
@@ -39,6 +49,66 @@ def scenes(drumlin, templates, folder):
     require("THIS.toml" in odd.read_text(encoding="utf-8"), "a name with a new line became a line of the scene")
     _, refused = drumlin("new", "avalanche", "-o", folder / "x.toml", code=2)
     require("drum" in refused and not (folder / "x.toml").exists(), refused)
+
+
+def measured(drumlin, scene, run, *changes):
+    """What `measure` prints of a run of the scene as it is."""
+    drumlin("run", scene, "-o", run, *changes)
+    return drumlin("measure", run, "--parts", "maps" if "drum" in run.name else "none")[0]
+
+
+def chains(drumlin, templates, folder):
+    """As their heads and the lines "next:" say: drum and shear go to a law, whose flow is compared, chute and silo to their pair. All by the scenes as
+    they are written; `measure` says of a chute that has come to rest that nothing flows, and of a run that is too short how it goes on."""
+    place = folder / "whole"
+    place.mkdir()
+    files = {kind: written(drumlin, templates, kind, place) for kind in [*SHORT, *FLOWS]}
+    law, flow = place / "rheology.toml", lambda kind, law_name: drumlin("flow", files[kind], "--rheology", law_name, "-o", place / f"{kind}-run")[0]
+
+    said = measured(drumlin, files["drum"], place / "drum")
+    require("\nsteady: " in said and f"next: drumlin calibrate {place / 'drum'}" in said, said)
+    said, _ = drumlin("calibrate", place / "drum", "-o", law)
+    require("next: drumlin new drum-flow" in said, said)
+    said = flow("drum-flow", law)
+    require("next: drumlin compare RUN" in said, said)
+    drumlin("compare", place / "drum", place / "drum-flow-run", "-o", place / "report")
+    require((place / "report/index.html").exists(), "no report")
+
+    said = measured(drumlin, files["shear"], place / "shear")
+    require("\nsteady: " in said and "next: drumlin calibrate" in said, said)
+    said, _ = drumlin("calibrate", place / "shear", "-o", law, "--overwrite")
+    found = re.search(r"with I from (\S+) to (\S+),", said)
+    require(float(found[2]) > 5 * float(found[1]), said)
+    require(0.2 < tomllib.loads(law.read_text(encoding="utf-8"))["mu"]["a"] < 0.7, "not the law of such grains")
+
+    said = measured(drumlin, files["chute"], place / "chute")
+    require("\nsteady: " in said and f"next: drumlin pair {place / 'chute'}/scene.toml --run {place / 'chute'} --law LAW" in said, said)
+    drumlin("pair", place / "chute" / "scene.toml", "--run", place / "chute", "--law", law, "-o", place / "chute-pair")
+    require((place / "chute-pair/report/index.html").exists(), "no report of the chute")
+    said = flow("chute-flow", "collapse-grains")
+    require("next: drumlin compare" in said, said)
+    said = flow("shear-flow", "collapse-grains")
+    require(abs(read_json(place / "shear-flow-run/flow.json")["I"] - 0.0449) < 0.001, "I = 8/s sqrt(m/P)")
+
+    said = measured(drumlin, files["silo"], place / "silo")
+    require("calibrate" not in said and f"next: drumlin pair {place / 'silo'}/scene.toml" in said, said)
+    rate = read_json(place / "silo/run.json")["regions"][0]["rate"]
+    require(rate["ci99"] < 0.25 * rate["grains_per_s"], f"no steady rate: {rate}")
+    drumlin("pair", place / "silo" / "scene.toml", "--run", place / "silo", "--law", "collapse-grains", "--case", "silo", "-o", place / "silo-pair")
+    require((place / "silo-pair/report/index.html").exists(), "no report of the silo")
+    said = flow("silo-flow", "collapse-grains")
+    require("next: open the pictures" in said, said)
+
+    said = measured(drumlin, files["chute"], place / "resting", "--set", "effects.gravity.direction_deg=-72", "--set", "stages.1.snapshots=40")
+    require("nothing flows" in said and "next: let it flow" in said and "calibrate" not in said, said)
+    require(not read_json(place / "resting/measured/measured.json")["steadiness"]["flows"], "it flows")
+    _, said = drumlin("calibrate", place / "resting", "-o", place / "none.toml", code=2)
+    require("nothing flows" in said, said)
+    said = measured(drumlin, files["shear"], place / "short", "--set", "stages.2.duration_s=0.1", "--set", "stages.2.snapshots=10")
+    found = re.search(r"next: drumlin run (\S+) -o (\S+) --extend (\S+), then", said)
+    require("not steady" in said and found, said)
+    drumlin("run", found[1], "-o", found[2], "--extend", found[3])
+    drumlin("measure", found[2], "--overwrite", "--parts", "none")
 
 
 def require_page(folder, *words):
@@ -105,7 +175,7 @@ def completes(drumlin):
     require({"run", "plot", "new", "report", "solve-contacts", "--version"} <= set(offered("drumlin", "")), "commands are missing")
     require(offered("drumlin", "pl") == ["plot"], f"{offered('drumlin', 'pl')}")
     require(offered("drumlin", "plot", "RUN", "--pl") == ["--player"], f"{offered('drumlin', 'plot', 'RUN', '--pl')}")
-    require(offered("drumlin", "new", "") == ["drum", "shear", "chute", "silo"], f"{offered('drumlin', 'new', '')}")
+    require(offered("drumlin", "new", "") == [*SHORT, *FLOWS], f"{offered('drumlin', 'new', '')}")
     require(offered("drumlin", "scene", "ch") == ["check"], f"{offered('drumlin', 'scene', 'ch')}")
     require(offered("drumlin", "scene", "keys", "--m") == ["--markdown"], f"{offered('drumlin', 'scene', 'keys', '--m')}")
     require(offered("drumlin", "plot", "RUN", "--color", "sp") == ["speed", "spin"], "colours")
@@ -114,10 +184,14 @@ def completes(drumlin):
 
 def main():
     with given() as (drumlin, templates, folder):
+        if "--chains" in sys.argv:
+            chains(drumlin, templates, folder)
+            return
         completes(drumlin)
         scenes(drumlin, templates, folder)
         reports(drumlin, folder)
-    print("scenes to start from run; runs have their page; the shell completes")
+        chains(drumlin, templates, folder)
+    print("scenes to start from run, and go through to their law or pair; runs have their page; the shell completes")
 
 
 if __name__ == "__main__":

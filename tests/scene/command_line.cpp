@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -35,8 +36,8 @@ std::string shown(const std::string& line) { return std::get<TextToShow>(request
 Json parsed(const std::string& line) { return json_of(std::get<1>(request(line))->description()); }
 
 TEST(CommandLine, FillsTheOptionsOfACommand) {
-  const Json run = parsed("run -o out --set x=1 --set y=[1,2] a.toml --threads 4 --resume");
-  EXPECT_EQ(run, Json({{"scene", "a.toml"},
+  const Json run = parsed("run -o out --set x=1 --set y=[1,2] ./a.toml --threads 4 --resume");
+  EXPECT_EQ(run, Json({{"scene", "./a.toml"},
                        {"output", "out"},
                        {"set", {"x=1", "y=[1,2]"}},
                        {"threads", 4},
@@ -46,10 +47,10 @@ TEST(CommandLine, FillsTheOptionsOfACommand) {
                        {"extend", nullptr},
                        {"resume", true},
                        {"overwrite", false}}));
-  EXPECT_EQ(parsed("run a.toml -o out")["threads"], processors_at_hand());
-  EXPECT_EQ(parsed("cost s.toml --sweep mesh=1:2,eps")["sweep"], Json({"mesh=1:2", "eps"}));
-  EXPECT_EQ(parsed("cost s.toml --ranks 1,2")["ranks"], Json({1, 2}));
-  EXPECT_EQ(parsed("cost --effects s.toml --against r1 r2")["against"], Json({"r1", "r2"}));
+  EXPECT_EQ(parsed("run ./a.toml -o out")["threads"], processors_at_hand());
+  EXPECT_EQ(parsed("cost ./s.toml --sweep mesh=1:2,eps")["sweep"], Json({"mesh=1:2", "eps"}));
+  EXPECT_EQ(parsed("cost ./s.toml --ranks 1,2")["ranks"], Json({1, 2}));
+  EXPECT_EQ(parsed("cost --effects ./s.toml --against r1 r2")["against"], Json({"r1", "r2"}));
   EXPECT_EQ(parsed("measure r --position -5")["position"], -5);
   EXPECT_EQ(parsed("calibrate r1 -o law.toml --I-min 1e-3")["I-min"], 1e-3);
   EXPECT_EQ(parsed("solve-contacts p.h5 --watch 10")["watch"], 10);
@@ -59,11 +60,11 @@ TEST(CommandLine, FillsTheOptionsOfACommand) {
 /// The words that stand for the options of a call make the same options.
 TEST(CommandLine, WordsOfOptionsMakeTheSameOptions) {
   for (const std::string line :
-       {"run a.toml -o o --set x=1 --set y=[1,2] --extend 1e-3 --resume",
-        "flow f.toml --rheology r -o o --from g",
+       {"run ./a.toml -o o --set x=1 --set y=[1,2] --extend 1e-3 --resume",
+        "flow ./f.toml --rheology ./r -o o --from g",
         "measure r --slices -1,0,2.5 --parts maps,forces --position -5 --verbose",
         "calibrate r1 r2 -o l --validate r3 r4 --I-max 0.1 --memory --amount --own-weight 0.5",
-        "cost s.toml --sweep mesh=1:2,eps --ranks 1,2 --neighbour a=1 --neighbour b=2 --against r1 r2"}) {
+        "cost ./s.toml --sweep mesh=1:2,eps --ranks 1,2 --neighbour a=1 --neighbour b=2 --against r1 r2"}) {
     const auto call = std::get<1>(request(line));
     const Json options = json_of(call->description());
     std::string again = line.substr(0, line.find(' '));
@@ -146,7 +147,7 @@ std::string call_of(const Command& command, const Description& description) {
   for (const Option& option : description.options())
     if (option.is_positional() || option.is_required)
       line += (option.is_positional() ? " " : " --" + option.name() + " ") +
-              (option.choices().empty() ? "x" : option.choices().front());
+              (option.choices().empty() ? "./x" : option.choices().front());
   return line;
 }
 
@@ -175,11 +176,44 @@ TEST(CommandLine, EveryRangeIsHeldAtItsEnds) {
 
 TEST(CommandLine, RefusesWrongUsage) {
   for (const char* line :
-       {"", "walk", "run", "run a.toml", "run a.toml -o o --resume --overwrite", "run a.toml -o o --unknown",
-        "run a.toml b.toml -o o", "new avalanche -o mine.toml", "calibrate r -o l --amount",
-        "export r --vtu --measurements", "cost s.toml --ranks 1,0", "scene", "scene check",
-        "--completion tcsh"})
+       {"", "walk", "run", "run ./a.toml", "run ./a.toml -o o --resume --overwrite",
+        "run ./a.toml -o o --unknown", "run ./a.toml ./b.toml -o o", "new avalanche -o mine.toml",
+        "calibrate r -o l --amount", "export r --vtu --measurements", "cost ./s.toml --ranks 1,0", "scene",
+        "scene check", "--completion tcsh"})
     EXPECT_THROW(request(line), InputError) << "drumlin " << line;
+}
+
+TEST(CommandLine, SuggestsTheNameThatWasMeant) {
+  using Case = std::pair<const char*, const char*>;
+  for (const auto& [line, meant] :
+       std::vector<Case>{{"run drum-smokee -o o", "\"drum-smoke\""},
+                         {"flow drum-6rpm --rheology ./r -o o", "drum-6rpm-flow, drum-6rpm-inertial-flow"},
+                         {"run drum-6rpm-flow -o o", "drumlin flow; its other side: drum-6rpm"},
+                         {"flow drum-smoke-flow --rheology drum-6pm -o o", "\"drum-6rpm\""},
+                         {"scene chekc x", "\"check\""},
+                         {"mesure r", "\"measure\""},
+                         {"run ./a.toml -o o --ovewrite", "\"--overwrite\""},
+                         {"new shute -o o", "\"chute\""}})
+    expect_has(message_of<InputError>([&] { request(line); }), meant);
+}
+
+/// Each example of the help is a call that the parser takes.
+TEST(CommandLine, ExamplesAreCalls) {
+  int tried = 0;
+  const auto try_all = [&](const Command& command) {
+    for (const std::string& example : command.examples) {
+      if (!example.starts_with("drumlin ")) continue;
+      std::string line = std::regex_replace(example.substr(8), std::regex(" ([\\w-]+\\.(toml|h5))"), " ./$1");
+      line = std::regex_replace(line, std::regex("rheology rheology"), "rheology ./rheology");
+      EXPECT_NO_THROW(request(std::regex_replace(line, std::regex("\"[^\"]*\""), "why"))) << example;
+      ++tried;
+    }
+  };
+  for (const Command& command : all_commands()) {
+    EXPECT_FALSE(command.examples.empty()) << command.name;
+    try_all(command);
+  }
+  EXPECT_GT(tried, 20);
 }
 
 TEST(CommandLine, ShowsHelpWithDefaultUnitAndRange) {

@@ -12,6 +12,7 @@
 #include "apps/commands/calibrate/evidence.hpp"
 #include "apps/json/json_file.hpp"
 #include "apps/output/figures.hpp"
+#include "apps/output/next_step.hpp"
 #include "apps/output/output_folder.hpp"
 #include "apps/process/standard_streams.hpp"
 #include "coupling/core/basics/errors.hpp"
@@ -93,12 +94,12 @@ coupling::CalibrationOptions settings_of(const CalibrateOptions& options, coupli
 Json laws_of_the_bed(const CalibrateOptions& options, const std::vector<MeasuredRun>& runs,
                      std::size_t fitted) {
   const Json requested{{"fitted", fitted},
-                   {"draws", options.draws},
-                   {"memory", options.memory},
-                   {"nonlocal", options.nonlocal},
-                   {"own_weight", options.amount ? Json(options.own_weight) : Json()},
-                   {"I_min", number_or_null(options.I_min)},
-                   {"I_max", number_or_null(options.I_max)}};
+                       {"draws", options.draws},
+                       {"memory", options.memory},
+                       {"nonlocal", options.nonlocal},
+                       {"own_weight", options.amount ? Json(options.own_weight) : Json()},
+                       {"I_min", number_or_null(options.I_min)},
+                       {"I_max", number_or_null(options.I_max)}};
   std::vector<std::string> words{requested.dump()};
   for (const MeasuredRun& run : runs)
     words.insert(words.end(), {run.name, (run.folder / "measured" / "maps.h5").string()});
@@ -209,7 +210,9 @@ int calibrate(const CalibrateOptions& options) {
   for (const MeasuredRun& run : all)
     for (const std::string& reason : run.unsteady)
       print_out(fmt::format("  warning: {} is not steady: {}\n", run.name, reason));
-  print_out(fmt::format("next: drumlin flow FLOW.toml --rheology {} -o FLOWRUN\n", options.output.string()));
+  const bool of_a_drum = all.front().profiles.header.drum_radius.value_or(0) > 0;
+  print_out(next_step("calibrate", of_a_drum ? Flowing::drum : Flowing::layers, Verdict::done,
+                      options.output.string()));
   return static_cast<int>(ExitCode::done);
 }
 

@@ -77,6 +77,7 @@ Json steadiness_of(const particles::Steadiness& s) {
   const auto drift = [](const particles::Drift& d) { return to_json(Scalar{"", d.value, d.ci99}); };
   const auto number = [](double value) { return number_or_null(value); };
   return {{"steady", s.steady},
+          {"flows", s.flows},
           {"reasons", s.reasons},
           {"turns", number(s.turns)},
           {"turns_before", number(s.turns_before)},

@@ -18,6 +18,7 @@
 #include "apps/commands/run_report.hpp"
 #include "apps/commands/study.hpp"
 #include "apps/json/json_file.hpp"
+#include "apps/output/next_step.hpp"
 #include "apps/output/pending_figures.hpp"
 #include "apps/output/results.hpp"
 #include "apps/process/progress.hpp"
@@ -138,22 +139,28 @@ void write_series(const fs::path& file, const particles::TimeSeries& series) {
   replace_file(file, text);
 }
 
+/// Each snapshot stands for a stretch: what their first and last times leave out.
+double both_ends(const particles::Measurement& measured) {
+  const double snapshots = static_cast<double>(measured.series.time.size());
+  return snapshots > 1 ? snapshots / (snapshots - 1) : 1;
+}
+
+double sampled_seconds(const particles::Measurement& measured) {
+  return both_ends(measured) * (measured.last_time() - measured.first_time()) * measured.scales.time_s;
+}
+
 /// What is known beside the intervals; nothing of another program's run.
 Json statement_of(const MeasureOptions& options, const RunRecord& run, const particles::Measurement& measured,
                   const ScalarSet& scalars) {
   if (run.imported.value_or(false) || !fs::exists(options.run() / "scene.toml")) return {};
   const particles::Scene scene = particles::read_scene(options.run() / "scene.toml");
-  const double snapshots = static_cast<double>(measured.series.time.size());
-  const double both_ends =
-      snapshots > 1 ? snapshots / (snapshots - 1) : 1;  // each snapshot stands for a stretch
-  const double sampled = both_ends * (measured.last_time() - measured.first_time()) * measured.scales.time_s;
   const double turned = measured.series.wall_angle.empty()
                             ? 0
                             : measured.series.wall_angle.back() - measured.series.wall_angle.front();
   const RunCost cost{.cpu_seconds = run.cpu_seconds.value_or(0),
                      .simulated_seconds = run.simulated_seconds.value_or(0),
-                     .sampled_seconds = sampled,
-                     .turns = both_ends * std::abs(turned) / (2 * std::numbers::pi)};
+                     .sampled_seconds = sampled_seconds(measured),
+                     .turns = both_ends(measured) * std::abs(turned) / (2 * std::numbers::pi)};
   ScalarSet with_intervals;
   for (const Scalar& scalar : scalars.scalars)
     if (scalar.ci99 && std::isfinite(scalar.value)) with_intervals.scalars.push_back(scalar);
@@ -275,6 +282,18 @@ std::vector<FigureScript> figures_of(const Request& request, const fs::path& fol
   return figures;
 }
 
+Flowing flowing_of(const particles::MeasurementFrame& place) {
+  return place.container_radius > 0 ? Flowing::drum : place.period > 0 ? Flowing::layers : Flowing::open;
+}
+
+Verdict verdict_of(const Request& request, const particles::Measurement& measured, const LogLaw& law) {
+  if (!measured.steadiness.flows) return Verdict::rests;
+  if (!measured.steadiness.steady)
+    return request.run.imported.value_or(false) ? Verdict::other_program : Verdict::unsteady;
+  constexpr double least_range = 3;  // of I: less leaves b of a + b ln I to chance
+  return law.I_max >= least_range * law.I_min ? Verdict::done : Verdict::one_rate;
+}
+
 int measure_run(const MeasureOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   check_parts(options.parts);
@@ -318,8 +337,8 @@ int measure_run(const MeasureOptions& options) {
 
   print_results(request, requested.folder, measured, scalars, options.verbose);
   print_accuracy(request, statement, scalars);
-  print_out(fmt::format("next: drumlin calibrate {} -o rheology.toml, or drumlin report {}\n",
-                        options.run().string(), options.run().string()));
+  print_out(next_step("measure", flowing_of(measured.place), verdict_of(request, measured, friction.law),
+                      options.run().string(), sampled_seconds(measured)));
   throw_if_figures_failed(requested.folder / requested.finished, failures);
   return static_cast<int>(ExitCode::done);
 }

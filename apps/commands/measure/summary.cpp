@@ -17,7 +17,7 @@ namespace drumlin::apps {
 
 namespace {
 
-constexpr double too_wide = 0.1;  // half width of a change of energy that tells nothing
+constexpr double wide = 0.1;  // half width of a change of energy that is worth a line
 // Printed without --verbose.
 constexpr std::array<std::string_view, 6> drum_numbers{"theta_deg", "Q",          "H",
                                                        "lambda",    "shear_rate", "nu_bulk"};
@@ -41,8 +41,11 @@ void print_scalar(const Scalar& scalar, const particles::ScalarSensitivity& sens
 }
 
 void print_steadiness(const particles::Steadiness& steadiness) {
-  print_out(steadiness.steady ? "steady" : "NOT STEADY, or too short to say:");
+  print_out(steadiness.steady  ? "steady"
+            : steadiness.flows ? "not steady, or too short to say:"
+                               : "not steady:");
   for (const std::string& reason : steadiness.reasons) print_out(fmt::format("\n  - {}", reason));
+  if (!steadiness.flows) return print_out("\n");
   if (std::isfinite(steadiness.energy.value))
     print_out(fmt::format("{}energy {:+.1f} +- {:.1f} % from the first half to the second",
                           steadiness.steady ? ": " : "\n  ", 100 * steadiness.energy.value,
@@ -51,11 +54,14 @@ void print_steadiness(const particles::Steadiness& steadiness) {
     print_out(
         fmt::format(", slope {:+.2f} +- {:.2f} deg", steadiness.slope_deg.value, steadiness.slope_deg.ci99));
   if (std::isfinite(steadiness.pressure.value))
-    print_out(fmt::format("{}pressure {:+.1f} +- {:.1f} %", ", ", 100 * steadiness.pressure.value,
+    print_out(fmt::format(", pressure {:+.1f} +- {:.1f} %", 100 * steadiness.pressure.value,
                           100 * steadiness.pressure.ci99));
   print_out(fmt::format("; judged by {}\n", steadiness.judged_by));
-  if (steadiness.energy.ci99 > too_wide)
-    print_out("  the change of energy is too uncertain to tell: sample longer, or more snapshots\n");
+  if (steadiness.energy.ci99 > wide)
+    print_out(fmt::format(
+        "  a change of the energy by less than {:.0f} % would not be seen: sample longer, or more "
+        "snapshots\n",
+        100 * steadiness.energy.ci99));
 }
 
 void print_scattered(const particles::Measurement& measured) {

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
+#include "coupling/core/basics/suggestion.hpp"
 #include "coupling/core/documents/number_text.hpp"
 #include "coupling/core/documents/one_line.hpp"
 
@@ -17,34 +17,6 @@ std::string kind_of(const Node& node) {
   static constexpr const char* kinds[] = {"true or false", "an integer", "a number",
                                           "a text",        "an array",   "a table"};
   return kinds[node.value.index()];
-}
-
-/// Number of single-character edits that turn one word into the other (Levenshtein).
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({change, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-/// " (did you mean "gravity"?)" when a known word is near enough to be the one that was meant.
-template <class Words>
-std::string suggestion(const std::string& word, const Words& known) {
-  const std::string* nearest = nullptr;
-  std::size_t distance = std::max<std::size_t>(2, word.size() / 3) + 1;
-  for (const auto& candidate : known)
-    if (const auto d = edit_distance(word, candidate); d < distance) {
-      distance = d;
-      nearest = &candidate;
-    }
-  return nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : "";
 }
 
 template <class Words>
@@ -303,7 +275,8 @@ void KeyReader::leave() {
   for (const auto& [key, node] : std::get<Node::Table>(done.table->value))
     if (!done.known.contains(key))
       problems_.push_back(problem_of(document_, node, done.path.empty() ? key : done.path + "." + key,
-                                     "is unknown" + suggestion(key, done.known), listed(done.known)));
+                                     "is unknown" + suggestion(key, {done.known.begin(), done.known.end()}),
+                                     listed(done.known)));
 }
 
 std::string KeyReader::path_of(const std::string& key) const {

@@ -27,12 +27,15 @@ FlowFrame upright_frame(const Snapshot& snapshot) {
 }
 
 /// Translation of all grains relative to the drum.
-double kinetic_energy(const Snapshot& snapshot, RelativeVelocities& velocity) {
+void add_motion(const Snapshot& snapshot, RelativeVelocities& velocity, TimeSeries& series) {
   relative_velocities(snapshot, VelocityKind::instantaneous, velocity);
-  double energy = 0;
-  for (std::size_t i = 0; i < snapshot.x.size(); ++i)
+  double energy = 0, mass = 0;
+  for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
     energy += mass_of(snapshot, i) / 2 * (velocity.x[i] * velocity.x[i] + velocity.z[i] * velocity.z[i]);
-  return energy;
+    mass += mass_of(snapshot, i);
+  }
+  series.kinetic_energy.push_back(energy);
+  series.speed.push_back(mass > 0 ? std::sqrt(2 * energy / mass) : 0);
 }
 
 void widen_reach(const Snapshot& snapshot, Survey& found) {
@@ -110,7 +113,7 @@ Survey survey(const Recording& recording, std::size_t batches, std::shared_ptr<S
     }
     found.series.time.push_back(snapshot.time);
     found.series.wall_angle.push_back(snapshot.wall_angle);
-    found.series.kinetic_energy.push_back(kinetic_energy(snapshot, velocity));
+    add_motion(snapshot, velocity, found.series);
     if (radius > 0) {
       found.coverage->add(snapshot, found.upright, batch_of(s, recording.count(), batches));
       found.series.mass_angle.push_back(centre_of_mass_angle(snapshot, found.upright));

@@ -23,6 +23,7 @@ struct TimeSeries {
   std::vector<double> wall_angle;      ///< rad turned so far, clockwise
   std::vector<double> mass_angle;      ///< rad, of the centre of mass; empty without a container
   std::vector<double> kinetic_energy;  ///< of the motion relative to the drum, rho0 g d^3 per unit depth
+  std::vector<double> speed;           ///< root mean square of the same motion over the mass of the grains
   /// Without a container: sum over contacts of F_a b_a / 2 and of -F_x b_z, over the area of all grains; mean
   /// shear rate: slope of v_x over z among the grains that touch something. NaN where no contact is known.
   std::vector<double> pressure, shear_stress, shear_rate;
