@@ -1,6 +1,7 @@
 """The manual as a site: docs/build writes it. README.md gives pages of its own; commands, the Python package and the public headers of the libraries
 tell of themselves (Doxygen, breathe); notebooks are executed where DRUMLIN_NOTEBOOKS is set."""
 
+import inspect
 import logging
 import os
 import pathlib
@@ -20,11 +21,11 @@ extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "breath
 breathe_default_project = "drumlin"
 breathe_show_include = False
 myst_enable_extensions = ["dollarmath", "amsmath"]
-nbsphinx_execute, nbsphinx_timeout = "always", 1800
+nbsphinx_execute, nbsphinx_timeout, nbsphinx_requirejs_path = "always", 1800, ""  # no page asks another host for a script
 myst_heading_anchors = 4
 myst_update_mathjax = False
 mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"  # Debian's MathJax 2, beside the pages: docs/build copies it
-autodoc_member_order = "bysource"
+autodoc_member_order, autodoc_typehints = "bysource", "description"
 html_theme = "furo"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
@@ -64,8 +65,25 @@ def commands():
     return f"# Commands and keys\n\n{keys}\n\n" + "\n\n".join(f"## drumlin {name}\n\n```text\n{help_of(name)}\n```" for name in names) + "\n"
 
 
+# The names of the package by what they are for; each module's own page of names follows its group.
+PYTHON = {"Run and measure": ["run", "measure", "solve_flow", "compare", "make_pair", "sweep", "score", "command", "program"], "Read": ["read", "Folder", "Arrays", "value_of"],
+          "Look": ["show", "Picture"], "Step a scene": ["Simulation", "resolved", "toml_of"], "Laws": ["Law", "calibrate", "CalibratedLaw"],
+          "Contact problems": ["solve_contacts", "ContactSolution", "contact_residual", "contact_solvers"],
+          "Errors": ["DrumlinError", "InputError", "NotConvergedError", "IoError"]}
+
+
 def python():
-    return "# The Python package\n\n[Notebooks](cookbook/python.md)\n\n```{eval-rst}\n.. automodule:: drumlin\n   :members:\n   :imported-members:\n```\n"
+    import drumlin
+
+    missing = set(drumlin.__all__) - {"errors", "plot", "study", "version"} - set().union(*PYTHON.values())
+    if missing:
+        raise SystemExit(f"docs/conf.py: in no group of PYTHON: {missing}")
+    page = "# The Python package\n\n[Notebooks and examples](cookbook/python.md). Each name is one of `drumlin`.\n"
+    for group, names in PYTHON.items():
+        page += f"\n## {group}\n\n```{{eval-rst}}\n" + "".join(
+            f".. auto{'class' if inspect.isclass(getattr(drumlin, name)) and group != 'Errors' else 'exception' if group == 'Errors' else 'function'}:: drumlin.{name}\n"
+            f"   :members:\n\n" for name in names) + "```\n"
+    return page + "\n## Draw on axes of your own\n\n```{eval-rst}\n.. automodule:: drumlin.plot\n   :members:\n   :exclude-members: show, Picture\n```\n"
 
 
 # A header opens with a comment that says what it is: of the file, to Doxygen. Without their namespaces, which the pages name, headers declare nothing twice.

@@ -96,5 +96,6 @@ def draw(drawing, folder):
                                      trim_blocks=True, lstrip_blocks=True)
     text = environment.get_template("player.html").render(content=content, data=base64.b64encode(stream).decode("ascii"))
     whole_file.write_text(folder / "player.html", text)
-    size = (folder / "player.html").stat().st_size
-    return {"player.html": f"{len(frames)} snapshots of {content['count']} grains to play in a browser, {size / 1e6:.2f} MB"}
+    size, most = (folder / "player.html").stat().st_size, max((len(grains.x) for grains in frames), default=0)
+    grains = f"{most} grains" if content["count"] == most else f"at most {most} grains, {content['count']} in turn,"
+    return {"player.html": f"{len(frames)} snapshots of {grains} to play in a browser, {size / 1e6:.2f} MB"}

@@ -38,7 +38,7 @@ def main():
             print(f"no virtual environment, nothing tried:\n{made.stdout}{made.stderr}")
             sys.exit(77)
         python = folder / "venv" / "bin" / "python"
-        run(python, "-m", "pip", "install", "--no-index", "--no-build-isolation", sources, cwd=folder, env=os.environ | {"DRUMLIN_BUILD": str(build)})
+        run(python, "-m", "pip", "install", "--no-index", "--no-deps", "--no-build-isolation", sources, cwd=folder, env=os.environ | {"DRUMLIN_BUILD": str(build)})
         said = run(python, "-c", PROGRAM, cwd=folder, env=os.environ | {"PATH": "/usr/bin:/bin"}).strip().split("|")
         if not said[0].startswith(str(folder / "venv")) or pathlib.Path(said[1]).parent != folder / "venv" / "bin" or said[2] != "drumlin":
             sys.exit(f"another package or other commands: {said}")

@@ -1,14 +1,19 @@
-"""Drumlin in Python: read its files into numpy, step scenes, solve contact problems, calibrate laws, start its commands, set many runs side by side."""
+"""Drumlin in Python: read its files into numpy, step scenes, solve contact problems, calibrate laws, start its commands, set many runs side by side.
+
+>>> import drumlin
+>>> run = drumlin.run("drum-smoke", "RUN")
+>>> drumlin.show(run)
+"""
 
 import importlib
 
-# The compiled part is loaded by what needs it.
+# The compiled part is loaded by what needs it; __init__.pyi says the same to editors and type checkers.
 _HOMES = {"_drumlin": ["version"], "commands": ["command", "compare", "make_pair", "measure", "program", "run", "score", "solve_flow"],
           "contacts": ["ContactSolution", "contact_residual", "contact_solvers", "solve_contacts"],
           "errors": ["DrumlinError", "InputError", "Interrupted", "IoError", "Killed", "NotConvergedError"],
           "sweeping.executors": ["Outcome", "run_all"], "files": ["Arrays", "Folder", "read", "value_of"],
           "laws": ["CalibratedLaw", "Law", "calibrate"], "library.table": ["LibraryLaw", "law"], "scenes": ["Simulation", "resolved", "toml_of"],
-          "sweeping.sweep": ["SweptRun", "sweep"], "plot": [], "study": []}
+          "sweeping.sweep": ["SweptRun", "sweep"], "plot": ["Picture", "show"], "study": []}
 __all__ = sorted(["errors", "plot", "study"] + [name for names in _HOMES.values() for name in names])
 
 

@@ -27,7 +27,10 @@ _KINDS = {kind.exit_code: kind for kind in (InputError, NotConvergedError, IoErr
 
 
 def program(name="drumlin"):
-    """Path of a command: that of the tree that this package lies in, or the one that PATH finds."""
+    """Path of a command: that of the tree that this package lies in, or the one that PATH finds.
+
+    >>> drumlin.program()
+    """
     above = pathlib.Path(__file__).parents
     for folder in [above[2], above[4] / "bin"] if len(above) > 4 else []:  # of a build tree; below a prefix
         if os.access(folder / name, os.X_OK) and (folder / name).is_file():
@@ -154,7 +157,10 @@ def _words(name, *positional, **options):
 
 def command(*words, **options) -> str:
     """Runs `drumlin WORDS...` and returns what it printed, a text. options: those of `drumlin COMMAND --help` by their long names, slice_width=10,
-    slices=[-5, 5], from_="maps". Raises the error that its exit code stands for, with its text; Ctrl-C ends it and is a KeyboardInterrupt here."""
+    slices=[-5, 5], from_="maps". Raises the error that its exit code stands for, with its text; Ctrl-C ends it and is a KeyboardInterrupt here.
+
+    >>> drumlin.command("scene", "check", "drum-smoke")
+    """
     return _command(_words(*words, **options) if options else words)
 
 
@@ -208,6 +214,8 @@ def run(scene, output, changes=(), threads: int = 1, overwrite: bool = False, re
     scene: a file, the name of a shipped one, a text of TOML or a dict of its keys, in their units (mm, s, ...); changes: {"solver.tolerance": 1e-3}.
     resume: goes on where a call was interrupted. Ctrl-C leaves a checkpoint. progress: shown or not; None: on a terminal alone.
     options, here and below: the others of the command, as in drumlin.command.
+
+    >>> run = drumlin.run("drum-smoke", "RUN", {"stages.2.turns": 2})
     """
     output = pathlib.Path(output)
     file = scene_file(scene, output, "drumlin-scene-1")
@@ -220,6 +228,8 @@ def solve_flow(scene, law, output, changes=(), overwrite: bool = False, progress
     """`drumlin flow`: a scene of the continuum with a law (a file, or a Law) into a folder of results, which is returned.
 
     scene, changes, progress: as in run. Needs the half of Drumlin with deal.II.
+
+    >>> flow = drumlin.solve_flow("drum-smoke-flow", "rheology.toml", "FLOW")
     """
     output = pathlib.Path(output)
     law = _written(law, output, "law") if hasattr(law, "write") else law
@@ -232,6 +242,8 @@ def measure(run_folder, overwrite: bool = False, parts=(), progress: bool | None
     """`drumlin measure`: averages of a run into its folder `measured`, which is returned.
 
     parts: what is measured beside the profiles (`drumlin measure --help`); all that is usual unless told. progress: as in run.
+
+    >>> measured = drumlin.measure("RUN", parts=["none"])
     """
     output = pathlib.Path(run_folder) / "measured"
     _command(_words("measure", run_folder, overwrite=overwrite, parts=parts, **options), "measure", output, progress)
@@ -239,7 +251,10 @@ def measure(run_folder, overwrite: bool = False, parts=(), progress: bool | None
 
 
 def compare(run_folder, flow_folder, output, overwrite: bool = False, accept_unsteady: bool = False, progress: bool | None = None, **options) -> Folder:
-    """`drumlin compare`: a measured run beside a flow, into a folder with comparison.json and a page, which is returned. progress: as in run."""
+    """`drumlin compare`: a measured run beside a flow, into a folder with comparison.json and a page, which is returned. progress: as in run.
+
+    >>> report = drumlin.compare("RUN", "FLOW", "REPORT")
+    """
     _command(_words("compare", run_folder, flow_folder, output=output, overwrite=overwrite, accept_unsteady=accept_unsteady, **options), "compare", output, progress)
     return read(output)
 
@@ -250,6 +265,8 @@ def make_pair(scene, law, output, changes=(), runs=(), seeds: int = 1, at=(), ov
 
     runs: finished ones in place of new ones, one for each of `seeds`; at: seconds since the flow begins at which both sides are compared. scene, law, changes,
     resume, progress: as in run and solve_flow.
+
+    >>> pair = drumlin.make_pair("column-collapse-rough", "collapse-grains", "PAIR", seeds=6)
     """
     output = pathlib.Path(output)
     law = _written(law, output, "law") if hasattr(law, "write") else law
@@ -261,7 +278,10 @@ def make_pair(scene, law, output, changes=(), runs=(), seeds: int = 1, at=(), ov
 
 def score(fields, limits, output, against=(), overwrite: bool = False, progress: bool | None = None) -> dict:
     """`drumlin score`: errors of a continuum (the folder of a flow, or a file of its profiles, maps or fields) against runs, by limits; the content of
-    score.json (docs/formats/score.md). against: measured runs, those of data/bed at that speed unless told. progress: as in run."""
+    score.json (docs/formats/score.md). against: measured runs, those of data/bed at that speed unless told. progress: as in run.
+
+    >>> drumlin.score("FLOW", "bed.toml", "SCORE")["verdict"]
+    """
     output = pathlib.Path(output)
     _command(_words("score", fields, limits=limits, output=output, against=against, overwrite=overwrite), "score", output, progress)
     return read(output / "score.json")

@@ -13,7 +13,11 @@ from .inputs import real
 
 @dataclasses.dataclass(frozen=True)
 class ContactSolution:
-    """r: impulses, u: velocities, both (contacts, 2) with the normal component first. The report is of r, by the project's one residual."""
+    """r: impulses, u: velocities, both (contacts, 2) with the normal component first. The report is of r, by the project's one residual.
+
+    >>> solution = drumlin.solve_contacts(W, q, mu=0.4)
+    >>> solution.status, solution.residual, solution.r.shape
+    """
 
     r: np.ndarray
     u: np.ndarray
@@ -71,6 +75,8 @@ def solve_contacts(W, q, mu, tolerance=1e-8, solver="accelerated", max_seconds=6
     """Solves a problem with W a scipy matrix or array, q of length 2 n, mu a number or one per contact.
 
     What misses the tolerance does not raise: `converged` and `status` say so, and the residual is that of what is returned.
+
+    >>> solution = drumlin.solve_contacts(W, q, mu=0.4, tolerance=1e-6)
     """
     _checked_limits(tolerance, max_seconds, threads)
     found = _drumlin.solve_contacts(*_arrays(W, q, mu), tolerance, max_seconds, solver, threads)
@@ -78,10 +84,16 @@ def solve_contacts(W, q, mu, tolerance=1e-8, solver="accelerated", max_seconds=6
 
 
 def contact_residual(W, q, mu, r):
-    """The residual of any impulses r, by whatever they were found: 0 where they solve the problem."""
+    """The residual of any impulses r, by whatever they were found: 0 where they solve the problem.
+
+    >>> drumlin.contact_residual(W, q, 0.4, solution.r)
+    """
     return _drumlin.contact_residual(*_arrays(W, q, mu), real("r", r).reshape(-1))
 
 
 def contact_solvers():
-    """The names that solve_contacts takes."""
+    """The names that solve_contacts takes.
+
+    >>> drumlin.contact_solvers()
+    """
     return _drumlin.contact_solvers()

@@ -10,13 +10,17 @@ import scipy.sparse
 
 from . import _drumlin
 from .errors import DrumlinError, InputError, IoError
-from .figures import result_files
+from .figures import quantity_table, result_files
 from .inputs import file_name, require_file
 
 
 class Arrays(dict):
     """Numbers and arrays of a file by name, table["v_x"] or table.v_x, in the units of its page in docs/formats: (rows,) of a table, (z, x) of maps,
-    (grains,) and (contacts,) or (contacts, 2) of a snapshot. `format`, `header` (texts by name) and `path` say what it is."""
+    (grains,) and (contacts,) or (contacts, 2) of a snapshot. `format`, `header` (texts by name) and `path` say what it is.
+
+    >>> profile = drumlin.read("RUN/measured/profiles.csv")
+    >>> profile.z, profile.v_x, profile.v_x_ci99
+    """
 
     def __init__(self, values, path, form="", header=None):
         super().__init__(values)
@@ -44,22 +48,35 @@ class Arrays(dict):
         return pandas.DataFrame({name: values for name, values in self.items() if np.ndim(values) == 1 and np.size(values) == length})
 
     def __repr__(self):
-        return f"<{self.format or self.path.suffix[1:]} of {self.path}: {', '.join(self)}>"
+        """A line for each entry: name, shape, unit and meaning as far as docs/formats/quantities.md knows them."""
+        lines = [f"<{self.format or self.path.suffix[1:]} of {self.path}"]
+        for name, value in self.items():
+            outer, of_interval = name.removesuffix("_ci99"), name.endswith("_ci99")
+            quantity = quantity_table.FIELDS.get(outer) or quantity_table.SCALARS.get(outer)
+            unit = "" if quantity is None or quantity.unit == "1" else quantity.unit
+            meaning = "99 % half width" if of_interval else quantity.meaning if quantity else ""
+            shape = str(np.shape(value)) if np.shape(value) else str(value)
+            lines.append(f"  {name:24} {' '.join(shape.split())[:28]:14} {unit:12} {meaning}".rstrip())
+        return "\n".join(lines) + ">"
 
 
 class Folder:
-    """A folder of results: its files are read when they are asked for, folder["log.csv"], folder["measured/maps.h5"]; `path` is where it lies."""
+    """A folder of results: its files are read when they are asked for, folder["log.csv"], folder["measured/maps.h5"]; `path` is where it lies.
+
+    >>> run = drumlin.read("RUN")
+    >>> run["log.csv"].residual.mean(), run.snapshots[-1]
+    """
 
     def __init__(self, path):
         self.path = pathlib.Path(path)
 
     @property
-    def files(self):
+    def files(self) -> list[str]:
         """Names of all files that can be read, a list of texts."""
         return [str(file.relative_to(self.path)) for file in sorted(self.path.rglob("*")) if file.is_file() and file.suffix in READERS]
 
     @property
-    def snapshots(self):
+    def snapshots(self) -> list[pathlib.Path]:
         """Paths of the snapshots of a run, a list in order of time."""
         return sorted((self.path / "snapshots").glob("*.h5"))
 
@@ -82,7 +99,13 @@ class Folder:
         return (self.path / name).is_file()
 
     def __repr__(self):
-        return f"<results in {self.path}: {len(self.files)} files>"
+        """The files, those of a folder with many in one line."""
+        folders: dict = {}
+        for name in self.files:
+            folders.setdefault(os.path.dirname(name), []).append(os.path.basename(name))
+        lines = [f"  {os.path.join(folder, names[0])} ... {names[-1]} ({len(names)})" if len(names) > 8 else f"  {os.path.join(folder, name)}"
+                 for folder, names in folders.items() for name in (names if len(names) <= 8 else names[:1])]
+        return "\n".join([f"<results in {self.path}: {len(self.files)} files", *lines]) + ">"
 
 
 def _is_number(entry):
@@ -92,7 +115,10 @@ def _is_number(entry):
 
 def value_of(content, name):
     """(value, half width of its 99 % interval) of a number of a JSON file that was read, in the units of its page in docs/formats; NaN for what was not
-    measured. KeyError for what it does not know."""
+    measured. KeyError for what it does not know.
+
+    >>> theta, half_width = drumlin.value_of(run["measured/measured.json"], "theta_deg")
+    """
     if name not in content:
         known = [key for key, entry in content.items() if _is_number(entry)]
         raise KeyError(f"{name}: is no number of this file (allowed: {', '.join(known)})")
@@ -148,7 +174,10 @@ READERS = {".csv": _read_csv, ".json": _read_json, ".toml": _read_toml, ".h5": _
 
 def read(path):
     """A folder of results, or one file of it: tables, maps, snapshots and contact problems as arrays by name, JSON and TOML as dicts. docs/formats says what each
-    holds, and in which units."""
+    holds, and in which units.
+
+    >>> snapshot = drumlin.read(run.snapshots[-1])
+    """
     path = pathlib.Path(os.fsdecode(file_name(path)))
     if path.is_dir():
         return Folder(path)

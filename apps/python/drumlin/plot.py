@@ -1,11 +1,15 @@
 """Figures on axes of one's own, in the colours and words of the commands' figures: theirs are drawn by the same functions."""
 
+import html
 import importlib
+import json
 import pathlib
 import sys
+import tempfile
 
 import numpy as np
 
+from .commands import command
 from .errors import InputError
 
 _FIGURES = pathlib.Path(__file__).parent / "figures"
@@ -20,8 +24,51 @@ def figure_module(name):
         sys.path.remove(str(_FIGURES))
 
 
+class Picture:
+    """A picture or a page of a run, which a notebook shows; `content` holds its bytes, `kind` what they are: png, gif or html.
+
+    >>> drumlin.show("RUN").save("grains.png")
+    """
+
+    def __init__(self, content: bytes, kind: str, words: str) -> None:
+        self.content, self.kind, self.words = content, kind, words
+
+    def save(self, path) -> None:
+        """Writes it to a file."""
+        pathlib.Path(path).write_bytes(self.content)
+
+    def _repr_mimebundle_(self, **_):
+        if self.kind != "html":
+            return {f"image/{self.kind}": self.content}
+        page = html.escape(self.content.decode("utf-8"), quote=True)
+        return {"text/html": f'<iframe srcdoc="{page}" width="100%" height="720" style="border: 0"></iframe>'}
+
+    def __repr__(self):
+        return f"<{self.kind}, {len(self.content) / 1e6:.2g} MB: {self.words}>"
+
+
+def show(run, color: str = "speed", snapshot="last", forces: bool = False, animation: bool = False, player: bool = False, every: int | None = None,
+         window=()) -> Picture:
+    """A run (its folder, or the path of it) as `drumlin plot` draws it, grains with their walls; a notebook shows what is returned.
+
+    color: speed, spin, size, material, pressure, coordination or id; forces: the chains of the normal forces in place of it; animation: all snapshots, or
+    each `every`-th, as a moving picture; player: as a page that plays them. snapshot: a number from 1 on, or last; window: x0, x1, z0, z1 in d.
+
+    >>> drumlin.show("RUN", animation=True, every=4)
+    """
+    name, kind = ("player.html", "html") if player else ("animation.gif", "gif") if animation else ("forces.png" if forces else f"{color}.png", "png")
+    with tempfile.TemporaryDirectory() as folder:
+        drawn = pathlib.Path(folder) / "drawn"
+        command("plot", getattr(run, "path", run), output=drawn, color=color, snapshot=snapshot, animation=animation, player=player, every=every, window=window)
+        words = json.loads((drawn / "plots.json").read_text(encoding="utf-8"))["figures"].get(name, name)
+        return Picture((drawn / name).read_bytes(), kind, words)
+
+
 def grains(axes, snapshot, values=None, **keywords):
-    """Draws discs at x, z with their radius: a snapshot that was read, or a simulation at hand. values: a colour for each; returns the collection."""
+    """Draws discs at x, z with their radius: a snapshot that was read, or a simulation at hand. values: a colour for each; returns the collection.
+
+    >>> drumlin.plot.grains(axes, snapshot, snapshot.spin)
+    """
     import matplotlib.collections  # half a second, for those who draw alone
 
     x, z, radius = (np.asarray(getattr(snapshot, name)) for name in ("x", "z", "radius"))
@@ -35,7 +82,10 @@ def grains(axes, snapshot, values=None, **keywords):
 
 
 def profile(axes, table, name, color=None, label=None):
-    """Draws a column of a profile over z with its 99 % interval as a band, where it has one."""
+    """Draws a column of a profile over z with its 99 % interval as a band, where it has one.
+
+    >>> drumlin.plot.profile(axes, profile, "v_x")
+    """
     style = figure_module("style")
     half_width = table.get(name + "_ci99")
     style.band(axes, table["z"], table[name], half_width, color or style.PARTICLES, label)

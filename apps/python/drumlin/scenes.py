@@ -1,7 +1,6 @@
 """Scenes as files, texts or dicts, and their simulation step by step."""
 
 import json
-import operator
 import os
 import pathlib
 import tempfile
@@ -37,8 +36,11 @@ def _toml_key(name):
     return name if name.isascii() and name.replace("_", "a").replace("-", "a").isalnum() else json.dumps(name)
 
 
-def toml_of(scene):
-    """The text of a scene that is a dict, a key a line."""
+def toml_of(scene: dict) -> str:
+    """The text of a scene that is a dict, a key a line.
+
+    >>> print(drumlin.toml_of({"title": "Box", "seed": 2}))
+    """
     return "".join(f"{_toml_key(key)} = {_toml_value(value, key)}\n" for key, value in scene.items())
 
 
@@ -50,23 +52,35 @@ def overrides_of(changes):
 
 
 def _text_and_name(scene, default_format="drumlin-scene-1"):
-    """(text, name) of a scene: None and the path of a file, or a text that a dict stands for."""
+    """(text, name) of a scene: None and the path of a file, which a shipped name stands for, or a text that a dict stands for."""
     if isinstance(scene, dict):
         return toml_of({"format": default_format} | scene), "scene"
     if isinstance(scene, str) and "\n" in scene:
         return scene, "scene"
-    return None, file_name(scene)
+    return None, file_name(shipped_file(scene))
 
 
-def resolved(scene, changes=()):
-    """The text of a scene (a path, a text, a dict) with all its defaults, checked."""
+def shipped_file(name, kind="scene"):
+    """The file of a shipped scene, or of a law with kind="law", by its name, as the commands find it; any other path stands for itself."""
+    if not isinstance(name, str) or os.path.dirname(name) or os.path.isfile(name):
+        return name
+    from .commands import command  # pylint: disable=import-outside-toplevel  # it needs this module
+
+    return command("scene", "file", name, **({"law": True} if kind == "law" else {})).removesuffix("\n")
+
+
+def resolved(scene, changes=()) -> str:
+    """The text of a scene (a path, the name of a shipped one, a text, a dict) with all its defaults, checked.
+
+    >>> print(drumlin.resolved("drum-smoke"))
+    """
     return _drumlin.resolved_scene(*_text_and_name(scene), overrides_of(changes))
 
 
 class Simulation:
     """A scene of grains in time, step by step, as its file or a caller between two steps says.
 
-    scene: a path, a text of TOML or a dict with the same keys (`drumlin scene keys` lists them); changes: {"solver.tolerance": 1e-3}.
+    scene: a path, the name of a shipped one (`drumlin scene list`), a text of TOML or a dict with the same keys (`drumlin scene keys`); changes: {"solver.tolerance": 1e-3}.
     Results do not depend on the number of threads.
 
     Numbers are in units of d, sqrt(d/g) and rho0 d^2 (`scales` says what these are), angles positive clockwise. Arrays of the grains are read-only views
@@ -78,16 +92,21 @@ class Simulation:
     keep it.
 
     Threads may share a simulation: each call waits for the step that is at work.
+
+    >>> simulation = drumlin.Simulation("drum-smoke")
+    >>> simulation.run(steps=100)
+    >>> simulation.x, simulation.contacts.force
     """
 
-    def __init__(self, scene, changes=(), threads: int = 1):
+    def __init__(self, scene, changes=(), threads: int = 1) -> None:
         self._scene, self._threads = _drumlin.stepped_scene(*_text_and_name(scene), overrides_of(changes), threads), threads
 
     def __repr__(self):
-        return f"<simulation: {len(self.x)} grains, step {self.steps} of {self.steps_planned}, t = {self.time:.6g} sqrt(d/g)>"
+        return (f"<simulation: {len(self.x)} grains, step {self.steps} of {self.steps_planned}, t = {self.time:.6g} sqrt(d/g); "
+                f"d = {1e3 * self.scales['length_m']:.4g} mm, sqrt(d/g) = {self.scales['time_s']:.4g} s>")
 
     @classmethod
-    def load(cls, path, threads: int = 1):
+    def load(cls, path, threads: int = 1) -> "Simulation":
         """Goes on from a file that save() wrote, bit for bit."""
         simulation = cls.__new__(cls)
         simulation._scene, simulation._threads = _drumlin.continued_scene(file_name(path), threads), threads
@@ -112,7 +131,7 @@ class Simulation:
         self._scene.save_snapshot(file_name(path))
 
     @property
-    def contacts(self):
+    def contacts(self) -> np.recarray:
         """Loaded contacts of the last step, a record array with the names of a snapshot: grains i and j (below 0: wall shape -1 - j), unit normal
         (contacts, 2) from j to i, force_n and force_t on i along it and along (n_z, -n_x), force (contacts, 2) as a vector along x and z, rho0 g d^2."""
         found = contact_forces(self._scene.contacts, self.time_step)
@@ -121,6 +140,96 @@ class Simulation:
         for name, values in found.items():
             contacts[name] = values
         return contacts
+
+    @property
+    def x(self) -> np.ndarray:
+        """Positions of the centres along x, (grains,), d."""
+        return self._scene.x
+
+    @property
+    def z(self) -> np.ndarray:
+        """Positions of the centres along z, (grains,), d."""
+        return self._scene.z
+
+    @property
+    def v_x(self) -> np.ndarray:
+        """Velocities along x, (grains,), sqrt(g d)."""
+        return self._scene.v_x
+
+    @property
+    def v_z(self) -> np.ndarray:
+        """Velocities along z, (grains,), sqrt(g d)."""
+        return self._scene.v_z
+
+    @property
+    def spin(self) -> np.ndarray:
+        """Angular velocities, clockwise, (grains,), sqrt(g/d); empty in a scene without spin."""
+        return self._scene.spin
+
+    @property
+    def radius(self) -> np.ndarray:
+        """Radii, (grains,), d."""
+        return self._scene.radius
+
+    @property
+    def mass(self) -> np.ndarray:
+        """Masses, (grains,), rho0 d^2; a copy."""
+        return self._scene.mass
+
+    @property
+    def id(self) -> np.ndarray:
+        """Numbers of the grains, (grains,), that stay with them where grains come and go; else empty."""
+        return self._scene.id
+
+    @property
+    def walls(self) -> list[str]:
+        """Names of the walls, a list."""
+        return self._scene.walls
+
+    @property
+    def wall_of_shape(self) -> list[int]:
+        """For each wall shape the number of its wall, a list."""
+        return self._scene.wall_of_shape
+
+    @property
+    def scales(self) -> dict[str, float]:
+        """Units in SI, a dict: length_m (d), time_s, density_kg_m3 (rho0), velocity_m_s, stress_Pa (rho0 g d)."""
+        return self._scene.scales
+
+    @property
+    def finished(self) -> bool:
+        """Whether the scene is at its end."""
+        return self._scene.finished
+
+    @property
+    def steps(self) -> int:
+        """Number of steps done."""
+        return self._scene.steps
+
+    @property
+    def steps_planned(self) -> int:
+        """Number of steps of the scene, as far as known."""
+        return self._scene.steps_planned
+
+    @property
+    def time(self) -> float:
+        """Time since the start, sqrt(d/g)."""
+        return self._scene.time
+
+    @property
+    def time_step(self) -> float:
+        """Length of the last step, sqrt(d/g)."""
+        return self._scene.time_step
+
+    @property
+    def stage(self) -> str:
+        """Name of the stage of the last step."""
+        return self._scene.stage
+
+    @property
+    def kinetic_energy(self) -> float:
+        """Kinetic energy of all grains, of their spin too, rho0 g d^3."""
+        return self._scene.kinetic_energy
 
     def set_velocity(self, grains, v_x=None, v_z=None, spin=None):
         """Gives grains other velocities. grains: an index, a slice or an array of indices or truth values; v_x, v_z in sqrt(g d), spin in sqrt(g/d): a
@@ -166,16 +275,3 @@ def _loaded(cls, content, threads):
         file = pathlib.Path(folder) / "simulation.h5"
         file.write_bytes(content)
         return cls.load(file, threads)
-
-
-for _name, _doc in {
-        "x": "Positions of the centres along x, (grains,), d.", "z": "Positions of the centres along z, (grains,), d.",
-        "v_x": "Velocities along x, (grains,), sqrt(g d).", "v_z": "Velocities along z, (grains,), sqrt(g d).",
-        "spin": "Angular velocities, clockwise, (grains,), sqrt(g/d); empty in a scene without spin.", "radius": "Radii, (grains,), d.",
-        "mass": "Masses, (grains,), rho0 d^2; a copy.", "id": "Numbers of the grains, (grains,), that stay with them where grains come and go; else empty.",
-        "walls": "Names of the walls, a list.", "wall_of_shape": "For each wall shape the number of its wall, a list.",
-        "scales": "Units in SI, a dict: length_m (d), time_s, density_kg_m3 (rho0), velocity_m_s, stress_Pa (rho0 g d).",
-        "finished": "Whether the scene is at its end.", "steps": "Number of steps done.", "steps_planned": "Number of steps of the scene, as far as known.",
-        "time": "Time since the start, sqrt(d/g).", "time_step": "Length of the last step, sqrt(d/g).", "stage": "Name of the stage of the last step.",
-        "kinetic_energy": "Kinetic energy of all grains, of their spin too, rho0 g d^3."}.items():
-    setattr(Simulation, _name, property(operator.attrgetter("_scene." + _name), doc=_doc))

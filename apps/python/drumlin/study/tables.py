@@ -85,8 +85,10 @@ def verdict_lines(speeds):
                   + ("; inside the particles' interval)" if target.get("inside_interval") else ")")
                   for target in speed["targets"] if target["outcome"] == "missed"]
         if met + missed:
+            noise = [f"{' '.join(filter(None, _name(target)))} {shown(target['value'], 2)} (limit {target['limit']:g}, noise floor {shown(target['noise_floor'], 2)})"
+                     for target in speed["targets"] if target["outcome"] == "met" and target["value"] > target["limit"]]
             lines.append(f"{speed['rotation_rpm']:.3g} rpm, {speed['role']}: {met} of {met + missed} targets met"
-                         + (f"; missed: {', '.join(misses)}" if misses else ""))
+                         + (f", by the noise floor alone: {', '.join(noise)}" if noise else "") + (f"; missed: {', '.join(misses)}" if misses else ""))
     return lines
 
 
