@@ -68,8 +68,12 @@ def draw_arc(axes, arc, with_legend):
         axes.legend()
 
 
+LEAST_POINTS = 4  # of an arc: fewer show no course
+
+
 def memory_panels(memory):
-    return [lambda axes: draw_amount(axes, memory), *(lambda axes, arc=arc: draw_arc(axes, arc, arc is memory["arcs"][0]) for arc in memory["arcs"])]
+    arcs = [arc for arc in memory["arcs"] if len(arc["angle_deg"]) >= LEAST_POINTS]
+    return [lambda axes: draw_amount(axes, memory), *(lambda axes, arc=arc: draw_arc(axes, arc, arc is arcs[0]) for arc in arcs)]
 
 
 def draw_curvature(axes, nonlocal_record):

@@ -109,7 +109,11 @@ def sheet(grids, header, field, label, logarithmic, names, reduced):
         return None
     difference = np.ma.masked_where(~inside, difference_of(field, first, second, logarithmic))
     half_width = grids.get(f"ci99/{field}_particles")
-    panels = [(first, norm, "viridis", names[0], label), (second, norm, "viridis", names[1], label),
+    palette = "viridis"
+    if quantity_table.field(field).compared == "half turns":  # of both signs, and noise where no axis is known
+        first, second = (np.ma.masked_where(~inside, side) for side in (first, second))
+        norm, palette = symmetric(np.ma.concatenate([first, second]), np.concatenate([inside, inside])), "RdBu_r"
+    panels = [(first, norm, palette, names[0], label), (second, norm, palette, names[1], label),
               (difference, symmetric(difference, inside), "RdBu_r", f"{names[1]} - {names[0]}",
                "decades" if logarithmic else "difference, same unit")]
     if half_width is not None:
@@ -117,10 +121,10 @@ def sheet(grids, header, field, label, logarithmic, names, reduced):
         panels.append((over, symmetric(over, inside, WORST_INTERVALS), "RdBu_r", "the same in intervals",
                        f"99 % half widths of the {names[0].split(':')[0]}"))
     figure, grid = plt.subplots(2, 2, figsize=(13, 8))
-    for axes, (values, colours, palette, title, text) in zip(grid.flat, panels):
+    for axes, (values, colours, cmap, title, text) in zip(grid.flat, panels):
         if logarithmic and colours is norm:
             values = np.ma.maximum(values, norm.vmin)
-        image = axes.pcolormesh(grids["x"], grids["z"], values, norm=colours, cmap=palette, shading="nearest", rasterized=True)
+        image = axes.pcolormesh(grids["x"], grids["z"], values, norm=colours, cmap=cmap, shading="nearest", rasterized=True)
         axes.contour(grids["x"], grids["z"], grids["zone"].filled(0), levels=[0.5, 1.5], colors="black", linewidths=0.6)
         outline(axes, float(header["drum_radius"]), float(header["axis_depth"]))
         axes.set_title(style.title_of(title, reduced))

@@ -7,6 +7,7 @@ import numpy as np
 
 STILL = 1e-6  # sqrt(g d), sqrt(g/d): what rests moves by rounding; no colours for that
 DECADES = 1e-3  # three of them below nearly the fastest: the slow creep deep in a packing is seen beside the flow
+FLAT = 20  # the middle nine tenths of speeds that differ by less are drawn from 0 on a linear scale
 MOST_CONTACTS = 6  # of a grain among grains of its size
 MATERIALS = ["#56B4E9", "#D55E00", "#009E73", "#CC79A7", "#F0E442", "#0072B2", "#E69F00", "#000000"]
 
@@ -71,8 +72,12 @@ class Colour:
         return grains.id.astype(float)
 
     def scale_speed(self, values, _):
-        fast = max(np.quantile(values, 0.998), STILL)
-        self.norm, self.label = matplotlib.colors.LogNorm(DECADES * fast, fast), r"speed  [$\sqrt{gd}$]"
+        fast, self.label = max(np.quantile(values, 0.998), STILL), r"speed  [$\sqrt{gd}$]"
+        slow, high = np.quantile(values, [0.05, 0.95])
+        if high < FLAT * slow:
+            self.norm, self.extend = matplotlib.colors.Normalize(0, fast), "max"
+        else:
+            self.norm = matplotlib.colors.LogNorm(DECADES * fast, fast)
 
     def scale_spin(self, values, _):
         most = max(np.quantile(np.abs(values), 0.99), STILL)

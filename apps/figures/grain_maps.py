@@ -59,6 +59,7 @@ class Grains:
                 corner = np.array([number_of(snapshot["cell/x"]), number_of(snapshot["cell/z"])])
                 self.cell = corner, corner + [number_of(snapshot["period_x"]), number_of(snapshot["cell/height"])]
                 self.offset = number_of(snapshot["cell/offset"])
+            self.gravity = np.array([number_of(snapshot["gravity_x"]), number_of(snapshot["gravity_z"])])
         # What numbers each grain for a colour by id or by material.
         self.id = grain_colours.id_of(frame["file"], len(self.x))
         materials = frame.get("materials")
@@ -222,6 +223,8 @@ class View:
                                                                        linestyle=(0, (6, 6)))))
         elif period is not None:
             artists += [axes.axvline(x, color=WALL, linewidth=0.8, linestyle=(0, (6, 6))) for x in period]
+        if grains.gravity[0] != 0:  # one that points straight down needs no arrow
+            artists.append(arrow_of(axes, grains.gravity / np.hypot(*grains.gravity)))
         return artists
 
     def period_of_plane(self, axes, period):
@@ -232,6 +235,13 @@ class View:
     def add_grains(self, axes, grains, **colours):
         # A rim of a twentieth of a grain parts neighbours of one colour.
         return style.discs(axes, grains.x, grains.z, grains.radius, linewidths=min(0.05 * self.inches * 72, 0.8), **colours)
+
+
+def arrow_of(axes, gravity):
+    """The direction of gravity, to the right of the picture's lower corner; `gravity` has length 1."""
+    begin, points = np.array([34.0, 30.0]), 40.0
+    return axes.annotate("", begin + points * gravity, begin, xycoords=("axes points"), textcoords="axes points", annotation_clip=False,
+                         arrowprops={"arrowstyle": "-|>", "color": WALL, "linewidth": 2, "mutation_scale": 16})
 
 
 def images(low, high, period):

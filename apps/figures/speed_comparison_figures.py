@@ -110,27 +110,46 @@ def name_of(target):
     return target["quantity"] + (f", {target['zone']}" if "zone" in target else "")
 
 
+MET, NEAR, MISSED = "#1a7f4b", "#e08a00", "#B00000"
+
+
+def judge_of(target):
+    """What a target is judged by: its limit, or the noise floor of the particles where that is larger."""
+    return target["noise_floor"] if target["judged_by"] == "noise floor" else target["limit"]
+
+
 def errors(study):
-    """One row per target, one mark per speed, over value/limit."""
+    """One row per target, one mark per speed, over what judges it; a bar where that is not the limit stands at the limit."""
     compared = [speed for speed in study.speeds if any(target["value"] is not None for target in speed["targets"])]
     names = [name_of(target) for target in compared[0]["targets"] if target["value"] is not None] if compared else []
-    figure, axes = plt.subplots(figsize=(9, 1.6 + 0.42 * len(names)))
-    colors = plt.cm.viridis([0.9 * i / max(1, len(compared) - 1) for i in range(len(compared))])
-    for i, (speed, color) in enumerate(zip(compared, colors)):
+    figure, axes = plt.subplots(figsize=(9, 1.9 + 0.42 * len(names)))
+    largest = 1
+    marks = "osD^vP*X<>"
+    for i, speed in enumerate(compared):
         shift = 0.5 * (i / max(1, len(compared) - 1) - 0.5)
         calibrated = speed["role"] == "calibrated"
-        x = [target["value"] / target["limit"] for target in speed["targets"] if name_of(target) in names and target["value"] is not None]
-        y = [names.index(name_of(target)) + shift for target in speed["targets"] if name_of(target) in names and target["value"] is not None]
-        axes.plot([max(value, 0.02) for value in x], y, "s", color=color, markerfacecolor=color if calibrated else "white", markeredgewidth=1.6,
-                  markersize=7, label=f"{speed['rotation_rpm']:.3g} rpm" + (", calibrated" if calibrated else ""))
-    axes.axvspan(1, 100, color="#B00000", alpha=0.06, linewidth=0)
-    axes.axvline(1, color="#B00000", linewidth=1)
+        for target in speed["targets"]:
+            if target["value"] is None or name_of(target) not in names:
+                continue
+            y, share = names.index(name_of(target)) + shift, target["value"] / judge_of(target)
+            near = target["outcome"] == "met" and target["value"] > target["limit"]
+            color = MISSED if target["outcome"] == "missed" else NEAR if near else MET
+            axes.plot(max(share, 0.02), y, marks[i % len(marks)], color=color, markerfacecolor=color if calibrated else "white", markeredgewidth=1.6, markersize=7)
+            if judge_of(target) != target["limit"]:
+                axes.plot([target["limit"] / judge_of(target)] * 2, [y - 0.12, y + 0.12], color="0.4", linewidth=2)
+            largest = max(largest, share)
+        axes.plot([], [], marks[i % len(marks)], color="0.2", markerfacecolor="0.2" if calibrated else "white", linestyle="none",
+                  label=f"{speed['rotation_rpm']:.3g} rpm" + (", calibrated" if calibrated else ""))
+    for color, label in ((MET, "within its limit"), (NEAR, "beyond it, within the noise"), (MISSED, "missed")):
+        axes.plot([], [], "s", color=color, linestyle="none", label=label)
+    axes.plot([], [], "|", color="0.4", markersize=10, markeredgewidth=2, linestyle="none", label="the limit, where the\nnoise floor judges")
+    axes.axvspan(1, 100, color=MISSED, alpha=0.06, linewidth=0)
+    axes.axvline(1, color=MISSED, linewidth=1)
     axes.set_xscale("log")
-    largest = max((t["value"] / t["limit"] for speed in compared for t in speed["targets"] if t["value"] is not None), default=1)
     axes.set_xlim(0.015, max(5, 1.5 * largest))
     axes.set_yticks(range(len(names)), names)
     axes.invert_yaxis()
-    axes.set_xlabel("error / limit")
+    axes.set_xlabel("error / what judges it: limit, or noise floor where that is larger")
     axes.set_title("Continuum against particles: met left of the line, missed right of it", fontsize=11)
     axes.legend(loc="center left", bbox_to_anchor=(1, 0.5))
     return figure

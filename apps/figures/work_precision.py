@@ -56,10 +56,13 @@ def mark_seconds(axes, seconds):
 
 
 def limit_errors(axes, errors):
-    """Whole powers of ten about errors of nearly one size: by itself such an axis may lose its limits."""
+    """About errors of nearly one size with room and with numbers at 1, 2 and 5: by itself such an axis may lose its limits."""
     errors = [error for error in errors if error > 0]
     if errors and max(errors) < 10 * min(errors):
-        axes.set_ylim(10 ** math.floor(math.log10(0.9 * min(errors))), 10 ** math.ceil(math.log10(1.1 * max(errors))))
+        axes.set_ylim(min(errors) / 1.6, 1.6 * max(errors))
+        axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axes.yaxis.set_minor_formatter(NullFormatter())
+        axes.yaxis.set_major_formatter("{x:.2g}")
 
 
 def draw_panel(axes, cost, quantity):

@@ -57,6 +57,20 @@ def over_limit(target):
     return value_of(target["value"]) / bound(target)
 
 
+def by_noise_alone(target):
+    """Whether a target is met because its error lies within the noise floor of the particles, and beyond its limit."""
+    return target["outcome"] == "met" and value_of(target["value"]) > target["limit"]
+
+
+def standing(target):
+    """Outcome of a target as the class of its cell: met, near (within the noise floor alone), missed, not_measured."""
+    return "near" if by_noise_alone(target) else target["outcome"]
+
+
+def verdict_words(target):
+    return "met within the noise" if by_noise_alone(target) else target["outcome"].replace("_", " ")
+
+
 def largest_miss(targets):
     """The missed target that is furthest beyond its limit; None where all are met."""
     missed = [target for target in targets if target["outcome"] == "missed"]
@@ -82,5 +96,5 @@ def as_json(value, indent=2):
 
 
 FILTERS = {function.__name__: function for function in (
-    is_known, value_of, number, measured, percent, difference, covers, bound, over_limit, largest_miss, above_by_noise, known_items,
+    is_known, value_of, number, measured, percent, difference, covers, bound, over_limit, standing, verdict_words, largest_miss, above_by_noise, known_items,
     coefficients, as_json)}

@@ -66,6 +66,36 @@ def observables():
     return {(entry["name"], entry.get("rotation_rpm")): entry["value"] for entry in read("paper/observables.toml")["observable"]}
 
 
+def summary():
+    """6 rpm in a few rows, with what each side costs."""
+    record, paper, said = read("cost/drum-6rpm.json"), rotations()[6], observables()
+    both = record["comparison"]["scalars"]
+    rows = [[words, number(stated), interval(both[key]["particles"]), number(both[key]["continuum"]["value"] if isinstance(both[key]["continuum"], dict) else both[key]["continuum"])]
+            for words, key, stated in (("slope theta (deg)", "theta_deg", paper["theta_deg"]), ("flow rate Q", "Q", paper["Q"]),
+                                       ("depth of the flowing layer H", "H", paper["H"]), ("shear rate of the flowing layer", "shear_rate", said[("shear_rate", 6)]))]
+    counts = record["comparison"]["verdict"]
+    alone = [target["beside"]["outcome"] for target in record["comparison"]["targets"]]
+    return table(["", "paper", "particles (99 %)", "continuum"], rows + [
+        ["processor seconds", "", f"{record['particles']['cpu_seconds']:.0f}", f"{record['continuum']['cpu_seconds']:.0f}"]]) + (
+        f"\n\nTargets met with memory of the axes: {counts['met']} of {counts['met'] + counts['missed']}, {counts['by_noise_floor']} of them judged by the noise floor of the "
+        f"particles; with mu(I) alone: {alone.count('met')} of {len(alone)}.")
+
+
+def times():
+    """What is to be waited for, of one record."""
+    calls = {call["command"]: call for call in read("cost/build.json")["calls"]}
+    bare = next(call for command, call in calls.items() if command.startswith(".ci/install"))
+
+    def minutes(seconds):
+        return f"{seconds / 60:.1f} min"
+
+    return table(["", "wall time"], [
+        ["build all programs, packages in place", minutes(calls["cmake --build BUILD --target programs"]["wall_seconds"])],
+        ["from a bare Debian 12 to a measured small drum with its law, without the continuum", minutes(sum(bare["wall_seconds"]))],
+        ["`./reproduce`, build included, packages in place", minutes(calls["./reproduce"]["wall_seconds"])],
+        ["`./check` after it", minutes(calls["./check"]["wall_seconds"])]])
+
+
 def headline():
     """6 rpm: what one ./reproduce gives, and what several seeds say."""
     record, paper, said = read("cost/drum-6rpm.json"), rotations()[6], observables()
@@ -331,6 +361,8 @@ def sizes():
 
 
 TABLES = {
+    "summary": summary,
+    "times": times,
     "headline": headline,
     "targets": targets,
     "verdicts": verdicts,

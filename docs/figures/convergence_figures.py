@@ -1,8 +1,8 @@
-"""What tolerance and time step change in the measured numbers, and what they cost: table and figure.
+"""What tolerance and time step change in the measured numbers, and what they cost: a table.
 
 usage: convergence_figures.py STANDARD CONVERGENCE OUTPUT
 STANDARD and CONVERGENCE are the folders that apps/paper_runs left, without and with --convergence; OUTPUT takes
-convergence.png, convergence.md and convergence.json.
+convergence.md and convergence.json.
 """
 
 import json
@@ -12,18 +12,13 @@ import re
 import sys
 import tomllib
 
-import matplotlib.pyplot as plt
 import scipy.special
-from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
 
 import script
-import style
 import whole_file
 
-SCALARS = [("theta_com_deg", r"$\theta$ (centre of mass)  [deg]", 2), ("H", r"$H$  [$d$]", 1), ("shear_rate", r"$\dot\gamma$", 4),
-           ("lambda", r"$\lambda$  [$d$]", 1), ("I_th", r"$I_{th}$", 4), ("dv_over_shear", r"$\delta v/\dot\gamma$", 2),
-           ("domega_over_shear", r"$\delta\omega/\dot\gamma$", 2), ("mu_b", r"$b$ of $\mu = a + b \ln I$", 4),
-           ("dv_exponent", r"exponent of $\delta v/\dot\gamma \sim I^p$", 3), ("overlap_mean", "mean overlap  [d]", 7)]
+SCALARS = {"theta_com_deg": 2, "H": 1, "shear_rate": 4, "lambda": 1, "I_th": 4, "dv_over_shear": 2, "domega_over_shear": 2, "mu_b": 4, "dv_exponent": 3,
+           "overlap_mean": 7}  # digits after the point
 
 
 def runs_of(standard, convergence):
@@ -84,40 +79,17 @@ def settings_of(runs):
 
 
 def table(groups):
-    heads = ["setting", "seeds", "CPU s", "sweeps a step", "missed steps"] + [name for name, *_ in SCALARS]
+    heads = ["setting", "seeds", "CPU s", "sweeps a step", "missed steps"] + list(SCALARS)
     lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
     for name, runs in groups.items():
         cpu, sweeps = steps(runs)
         missed = sum(run["unconverged_steps"] for run, *_ in runs) / len(runs)
         cells = [name, str(len(runs)), f"{cpu:.0f}", f"{sweeps:.0f}", f"{missed:.0f}"]
-        for scalar, _, digits in SCALARS:
+        for scalar, digits in SCALARS.items():
             mean, half = pooled(groups, runs, scalar)
             cells.append(f"{mean:.2e}" if scalar == "overlap_mean" else f"{mean:.{digits}f} +- {half:.{digits}f}")
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
-
-
-def figure(groups):
-    drawn, panels = plt.subplots(3, 4, figsize=(16, 10.5))
-    for axes, (scalar, label, _) in zip(panels.flat, SCALARS):
-        for i, (name, runs) in enumerate(groups.items()):
-            cpu, _ = steps(runs)
-            mean, half = pooled(groups, runs, scalar)
-            color = style.PARTICLES if name == "tolerance-3e-3, the standard" else (["0.35"] + style.OTHERS + [style.CONTINUUM])[i % 7]
-            axes.errorbar([cpu], [mean], [half], fmt="s" if name == "tolerance-3e-3, the standard" else "o", color=color, capsize=3, markersize=7,
-                          label=f"{name} ({len(runs)})")
-        axes.set_xscale("log")
-        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axes.xaxis.set_major_formatter(ScalarFormatter())
-        axes.xaxis.set_minor_formatter(NullFormatter())
-        axes.set_title(label, fontsize=12)
-        axes.set_xlabel("CPU time of a run  [s]")
-    panels.flat[len(SCALARS) - 1].set_yscale("log")
-    for axes in panels.flat[len(SCALARS):]:
-        axes.axis("off")
-    handles, labels = panels.flat[0].get_legend_handles_labels()
-    panels.flat[len(SCALARS)].legend(handles, labels, loc="center left", title="setting (seeds), bars 99 %")
-    return drawn
 
 
 def main():
@@ -125,18 +97,16 @@ def main():
         sys.exit(__doc__)
     standard, convergence, output = map(pathlib.Path, sys.argv[1:])
     groups = {name: runs for name, runs in runs_of(standard, convergence).items() if runs}
-    style.use_style()
     text = table(groups)
     whole_file.write_text(output / "convergence.md", text)
     content = {"format": "drumlin-convergence-1", "settings": {
         name: {"seeds": len(runs), **settings_of(runs), "cpu_seconds": steps(runs)[0], "sweeps_mean": steps(runs)[1],
-               **{scalar: dict(zip(("value", "ci99"), pooled(groups, runs, scalar))) for scalar, *_ in SCALARS}}
+               **{scalar: dict(zip(("value", "ci99"), pooled(groups, runs, scalar))) for scalar in SCALARS}}
         for name, runs in groups.items()},
         "scene": (next(iter(groups.values()))[0][2] / "scene.toml").read_text(encoding="utf-8"),
         "machine": next(iter(groups.values()))[0][0]["provenance"].get("machine"),
         "revisions": sorted({run["revision"] for runs in groups.values() for run, *_ in runs})}
     whole_file.write_text(output / "convergence.json", json.dumps(content, indent=2) + "\n")
-    style.save(figure({name: runs for name, runs in groups.items() if "friction" not in name}), output / "convergence.png", False)
     print(text)
 
 

@@ -1,7 +1,7 @@
 """Figures of docs/verification.md from what benchmark_flow_verification measured.
 
 usage: verification_figures.py RESULT.json OUTPUT_FOLDER
-Writes verification-orders.png, verification-gaps.png and verification-checks.png, and prints the observed orders.
+Writes verification-orders.png and verification-gaps.png, and prints the observed orders.
 """
 
 import math
@@ -82,37 +82,6 @@ def draw_gaps(data, folder):
     style.save(figure, folder / "verification-gaps.png", False)
 
 
-def draw_checks(data, folder):
-    figure, panels = two_in_a_row(3)
-    rows = data["tangent"]
-    panels[0].loglog([row["h"] for row in rows], [row["error"] for row in rows], marker="o")
-    panels[0].set_title("Tangent against differences")
-    panels[0].set_xlabel("half width of the difference")
-    panels[0].set_ylabel("relative difference")
-    rows = data["changed_laws"]
-    exact = [row["closed_form"] for row in rows]
-    panels[1].plot([min(exact), max(exact)], [min(exact), max(exact)], color=style.PAPER, linewidth=1)
-    panels[1].plot(exact, [row["surface_speed"] for row in rows], "o", markersize=7, color=style.CONTINUUM)
-    for row in rows:
-        panels[1].annotate(rf"$a={row['a']:g}$, $b={row['b']:g}$", (row["closed_form"], row["surface_speed"]),
-                           xytext=(8, -10), textcoords="offset points", fontsize=10)
-    panels[1].set_xlim(6, 22)
-    panels[1].margins(y=0.12)
-    panels[1].set_title("Other laws: surface of an incline")
-    panels[1].set_xlabel(r"closed form  [$\sqrt{gd}$]")
-    panels[1].set_ylabel(r"finite elements  [$\sqrt{gd}$]")
-    rows = data["drum"]
-    for name, label in (("flux_imbalance", "in - out, worst cut"), ("Q_relative_error", r"$Q$ at $x = 0$"),
-                        ("power_relative_error", "dissipation against power"),
-                        ("torque_relative_error", "torque, wall against weight")):
-        panels[2].plot([row["cell"] for row in rows], [abs(row[name]) for row in rows], marker="o", label=label)
-    mesh_axes(panels[2], "Balances of a small drum", r"cell  [$d$]")
-    panels[2].set_ylim(bottom=1e-20)
-    panels[2].legend(loc="lower right")
-    panels[2].set_ylabel("relative error")
-    style.save(figure, folder / "verification-checks.png", False)
-
-
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
@@ -124,7 +93,6 @@ def main():
     style.use_style()
     draw_orders(data, folder)
     draw_gaps(data, folder)
-    draw_checks(data, folder)
     for key in MANUFACTURED:
         print(key, *(f"{name} {order(data[key], name):.2f}" for name in NAMES))
     for key in ("incline", "chute", "annulus"):
