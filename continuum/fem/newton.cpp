@@ -30,8 +30,8 @@ constexpr double largest_fluidity_step = 2;
 // the flow around it, which a large step has not found yet.
 constexpr double small_step = 0.05;
 
-// Local steps can keep Newton's method where it makes no progress: it makes none after so many steps in a row
-// of which so little was taken.
+// Newton's method makes no progress after so many steps in a row of which so little was taken. Local steps
+// can keep it there, and so can a start too far off.
 constexpr int most_short_steps = 6;
 constexpr double short_step = 0.3;
 
@@ -244,7 +244,7 @@ bool Newton::iterate(const Phase& phase, State& state) {
     if (!(line.residual <= std::max(1.0, hopeless_growth * least))) break;
     if (line.residual <= phase.tolerance) return true;
     short_steps = line.step_length < short_step ? short_steps + 1 : 0;
-    if (has_settled_locally_ && short_steps == most_short_steps) break;
+    if ((has_settled_locally_ || phase.gives_up) && short_steps == most_short_steps) break;
   }
   report_.failure = fmt::format(
       "mesh {}, phase '{}' (eps = {:.3g}): residual {:.3e} after {} iterations, "
@@ -260,7 +260,8 @@ Setting final_setting(const FlowProblem& problem) {
 
 bool run(Newton& newton, const Phase& phase, SolvedLevel& level) {
   level.setting = phase.setting;
-  level.state.dual = dual_of(*level.discretisation, phase.setting.regularisation, level.state.solution);
+  if (!phase.keeps_dual)
+    level.state.dual = dual_of(*level.discretisation, phase.setting.regularisation, level.state.solution);
   const State before = level.state;
   if (newton.solve(phase, level.state)) return true;
   if (!newton.has_settled_locally() || newton.was_interrupted()) return false;

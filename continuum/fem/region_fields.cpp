@@ -96,6 +96,39 @@ FieldVector field_of_corners(const Discretisation& d, const SplitTriangles& spli
   return field;
 }
 
+// Where cells have other slopes, the mean of theirs.
+FieldVector displaced(const Discretisation& d, const FieldVector& u, const FieldVector& displacement) {
+  FieldVector sums = d.field(), count = d.field();
+  const dealii::Quadrature<2> nodes(d.elements.base_element(0).get_unit_support_points());
+  dealii::FEValues<2> at(d.mapping, d.elements, nodes, dealii::update_gradients);
+  std::vector<std::vector<dealii::Tensor<1, 2>>> slopes(
+      nodes.size(), std::vector<dealii::Tensor<1, 2>>(d.elements.n_components()));
+  std::vector<dealii::types::global_dof_index> indices(d.elements.n_dofs_per_cell());
+  for (const auto& cell : d.unknowns.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
+    at.reinit(cell);
+    at.get_function_gradients(u, slopes);
+    cell->get_dof_indices(indices);
+    for (unsigned int a = 0; a < nodes.size(); ++a) {
+      dealii::Tensor<1, 2> step;
+      for (unsigned int c = 0; c < 2; ++c)
+        step[c] = displacement[indices[d.elements.component_to_system_index(c, a)]];
+      for (unsigned int c = 0; c < (a < 4 ? 3 : 2); ++c) {
+        const auto i = indices[d.elements.component_to_system_index(c, a)];
+        sums(i) += slopes[a][c] * step;
+        count(i) += 1;
+      }
+    }
+  }
+  sums.compress(dealii::VectorOperation::add);
+  count.compress(dealii::VectorOperation::add);
+  FieldVector result = u;
+  for (std::size_t k = 0; k < sums.locally_owned_size(); ++k)
+    if (count.local_element(k) > 0) result.local_element(k) += sums.local_element(k) / count.local_element(k);
+  result.update_ghost_values();
+  return result;
+}
+
 BoundaryFlow boundary_flow(const SolvedLevel& level, const SplitTriangles& split, std::size_t corners) {
   const Discretisation& d = *level.discretisation;
   const FieldVector& u = level.state.solution;
@@ -207,6 +240,17 @@ void transfer(const SolvedLevel& from, const RegionMesh& old_mesh, SolvedLevel& 
     set(nodes[k].p, states[k].pressure);
   }
   solution.update_ghost_values();
+}
+
+std::vector<Vec2> transferred(const SolvedLevel& from, const RegionMesh& old_mesh,
+                              const SplitTriangles& split, const std::vector<Vec2>& corners,
+                              const std::vector<Vec2>& points) {
+  auto level = std::make_shared<SolvedLevel>(from);
+  level->state.solution = field_of_corners(*from.discretisation, split, corners);
+  std::vector<Vec2> values;
+  for (const PointState& at : values_near(FlowField(std::move(level)), old_mesh, points))
+    values.push_back(at.velocity);
+  return values;
 }
 
 }  // namespace drumlin::continuum::fem

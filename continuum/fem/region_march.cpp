@@ -63,7 +63,7 @@ class FreeFlow {
 
   FlowField field() {
     begin();
-    return FlowField(level_);
+    return field_there();
   }
 
   FlowReport march() {
@@ -78,7 +78,7 @@ class FreeFlow {
       if (observer_.stepped) observer_.stepped(now_);
     }
     report_.converged = report_.failure.empty();
-    if (report_.converged && observer_.ended) observer_.ended(FlowField(level_));
+    if (report_.converged && observer_.ended) observer_.ended(field_there());
     report_.residual = now_.residual;
     report_.seconds = fem::now() - begun_;
     for (std::size_t i = 0; i < fem::work_names.size(); ++i)
@@ -170,7 +170,7 @@ class FreeFlow {
   bool attempt(double dt, const std::vector<Vec2>& from, const std::vector<Vec2>& w,
                const std::shared_ptr<FieldVector>& before, bool is_last) {
     const std::vector<Vec2> middle = moved(from, 0.5 * dt, w);
-    if (!d().move_corners(level_->problem, middle)) {
+    if (!take_along(middle, level_->state)) {
       report_.failure = "the mesh turned inside out";
       return false;
     }
@@ -189,9 +189,27 @@ class FreeFlow {
       return false;
     }
     state_.mesh.vertices = std::move(to);
+    state_.solved_at = middle;
     state_.kinetic_energy = now_.sums.kinetic_energy;
     state_.power = power_;
     return true;
+  }
+
+  // Moves the mesh, and the flow from where it was solved: near the solution there, and rigid where it was.
+  // Left where it is, a velocity that turns with the mesh would stretch it at the rate rotation^2 dt, far
+  // above eps, and no direction of its D would tell anything.
+  bool take_along(const std::vector<Vec2>& to, fem::State& state) {
+    if (d().move_corners(level_->problem, state_.solved_at)) {
+      const std::vector<Vec2> way = ways(state_.solved_at, to);
+      state.dual = fem::dual_of(d(), level_->setting.regularisation, state.solution);
+      state.solution = fem::displaced(d(), state.solution, fem::field_of_corners(d(), *split_, way));
+    }
+    return d().move_corners(level_->problem, to);
+  }
+  FlowField field_there() {
+    const auto seen = std::make_shared<SolvedLevel>(*level_);
+    (void)take_along(state_.mesh.vertices, seen->state);
+    return FlowField(seen);
   }
 
   // What the step does, on the mesh at its middle.
@@ -206,6 +224,10 @@ class FreeFlow {
   static std::vector<Vec2> moved(std::vector<Vec2> x, double dt, const std::vector<Vec2>& w) {
     for (std::size_t k = 0; k < x.size(); ++k) x[k] = x[k] + dt * w[k];
     return x;
+  }
+  static std::vector<Vec2> ways(const std::vector<Vec2>& from, std::vector<Vec2> to) {
+    for (std::size_t k = 0; k < to.size(); ++k) to[k] = to[k] - from[k];
+    return to;
   }
   // Corners on a circle stay on it.
   std::vector<Vec2> on_curves(std::vector<Vec2> x, double time) const {
@@ -309,11 +331,16 @@ class FreeFlow {
     clock_(Work::refinement, [&] {
       const std::shared_ptr<SolvedLevel> old = level_;
       const RegionMesh old_mesh = state_.mesh;
+      const SplitTriangles old_split = *split_;
       state_.mesh = mesh_of(with_area(resampled(outline, plan_.region, state_.time, plan_.size), plan_.region,
                                       state_.time, state_.area),
                             plan_.size);
       discretise();
       fem::transfer(*old, old_mesh, *level_);
+      const std::vector<Vec2>& now = state_.mesh.vertices;
+      state_.solved_at =
+          moved(now, -1,
+                fem::transferred(*old, old_mesh, old_split, ways(state_.solved_at, old_mesh.vertices), now));
       state_.steps_on_mesh = 0;
       now_.remeshed = true;
     });
@@ -352,6 +379,7 @@ RegionState filled(const RegionMarch& march) {
   RegionState state;
   state.area = state.totals.fill = area(fill);
   state.mesh = mesh_of(fill, march.size);
+  state.solved_at = state.mesh.vertices;
   return state;
 }
 

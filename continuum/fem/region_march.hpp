@@ -34,6 +34,9 @@ struct RegionState {
   int steps = 0;
   int steps_on_mesh = 0;  ///< since it was made
   RegionMesh mesh = {};   ///< its vertices where they are now
+  /// Its vertices where the values solved the equations of the last step; what turns with the mesh is rigid
+  /// there, to rounding.
+  std::vector<Vec2> solved_at = {};
   double area = 0;        ///< that the material has to have
   double discharged = 0;  ///< area that has left
   double kinetic_energy = 0;

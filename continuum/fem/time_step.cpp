@@ -14,6 +14,7 @@ bool advance_carefully(Newton& newton, const FlowSolverOptions& options, Phase p
   const StressLaw law = phase.setting.law;
   phase.name = "start";
   phase.tolerance = options.phase_tolerance;
+  phase.keeps_dual = phase.gives_up = false;
   phase.setting.law = NewtonianLaw{1};
   phase.setting.regularisation.shear_rate =
       std::max(phase.setting.regularisation.shear_rate, options.start_shear_rate);
@@ -29,7 +30,12 @@ bool advance_once(Newton& newton, const FlowSolverOptions& options, const Inerti
   const State before = level.state;
   const auto& d = *level.discretisation;
   const bool at_rest = before.solution.l2_norm() == 0;
-  Phase phase{"time step", final_setting(level.problem), options.tolerance};
+  // Of a mesh that moves the dual is that of the flow before it moved: material keeps its stress as it turns.
+  Phase phase{.name = "time step",
+              .setting = final_setting(level.problem),
+              .tolerance = options.tolerance,
+              .keeps_dual = inertia.mesh_velocity != nullptr,
+              .gives_up = true};
   phase.setting.inertia = inertia;
   d.constraints.distribute(level.state.solution);  // what the sides do now
   level.state.solution.update_ghost_values();

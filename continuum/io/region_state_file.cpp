@@ -58,6 +58,7 @@ void write_region_state(const std::filesystem::path& file, const KeptRegion& kep
        "time, area, discharged, kinetic energy, its growth; area of the fill, work of the weight, errors of "
        "energy and mass; of the last step: its length, rate of discharge, largest speed"});
   out.add_table("vertices", flat(mesh.vertices), 2, {"d", "x, z of the corners of the triangles"});
+  out.add_table("solved_at", flat(kept.state.solved_at), 2, {"d", "the same in the middle of the last step"});
   out.add("triangles", triangles, {"1", "three corners each, anticlockwise"});
   out.add("boundary", boundary, {"1", "sides: from, to, part (walls, then openings; -1: free)"});
   out.add("values", kept.state.values, {"sqrt(g d), rho0 g d", "unknowns in deal.II's order"});
@@ -78,6 +79,8 @@ KeptRegion read_region_state(const std::filesystem::path& file) {
   if (count != numbers.size()) in.refuse("numbers", "another count of numbers");
   RegionMesh& mesh = kept.state.mesh;
   mesh.vertices = points_of(in.doubles("vertices", H5Range::finite));
+  kept.state.solved_at = points_of(in.doubles("solved_at", H5Range::finite));
+  if (kept.state.solved_at.size() != mesh.vertices.size()) in.refuse("solved_at", "another count of corners");
   const auto corners = static_cast<std::int32_t>(mesh.vertices.size()) - 1;
   const std::vector<std::int32_t> triangles = in.ints("triangles", 0, corners);
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3)

@@ -17,6 +17,8 @@ struct Phase {
   Setting setting;
   double tolerance = 0;
   bool starts_nearby = false;  ///< from a flow of another mesh or of a problem that differs a little
+  bool keeps_dual = false;     ///< the state's; else that of its D
+  bool gives_up = false;       ///< where it hardly gets on: another start follows
   bool locally = true;         ///< what few unknowns hold of the residual may settle by itself
 };
 

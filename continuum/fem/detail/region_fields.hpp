@@ -11,6 +11,9 @@ std::vector<Vec2> velocity_at_corners(const Discretisation& d, std::size_t corne
 FieldVector field_of_corners(const Discretisation& d, const SplitTriangles& split,
                              const std::vector<Vec2>& corners);
 
+/// To first order, what the field is where its nodes go.
+FieldVector displaced(const Discretisation& d, const FieldVector& u, const FieldVector& displacement);
+
 /// Motion of the material as the mesh follows it, and what leaves through openings: area and kinetic energy
 /// per time.
 struct BoundaryFlow {
@@ -25,5 +28,9 @@ std::vector<Vec2> loads_on(const Region& region, double time, const SolvedLevel&
 /// Values of the old field at the nodes of the new mesh; outside of the old one that of its nearest point.
 /// Throws NotConvergedError where a node lies far outside.
 void transfer(const SolvedLevel& from, const RegionMesh& old_mesh, SolvedLevel& to);
+/// The same of a field that is linear on each old triangle, at points.
+std::vector<Vec2> transferred(const SolvedLevel& from, const RegionMesh& old_mesh,
+                              const SplitTriangles& split, const std::vector<Vec2>& corners,
+                              const std::vector<Vec2>& points);
 
 }  // namespace drumlin::continuum::fem
