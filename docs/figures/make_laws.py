@@ -17,6 +17,7 @@ import scipy.stats
 import law_runs
 import script  # noqa: F401  (finds drumlin)
 import whole_file
+from drumlin.library import table
 
 POINT = ("friction", "restitution", "sizes", "rolling_resistance", "I", "count", "step_factor")
 LAW_I = 2 / math.sqrt(math.pi)  # I of a law, of the square of the mean diameter, over I of its disc's mass
@@ -109,6 +110,9 @@ def main():
     header = {"revision": ", ".join(sorted({run["revision"] for run in runs})), "runs": len(runs),
               "command": "docs/figures/law_runs.py PROGRAM FOLDER; measure_laws.py PROGRAM FOLDER; make_laws.py FOLDER -o FILE",
               "units": "dimensionless; angles in deg, processor time in s (docs/formats/laws.md)"}
+    whole_file.write_text(arguments.output, text_of(rows, header))
+    of = table.Library(arguments.output)
+    header |= {"process_" + name: " ".join(f"{value:.4g}" for value in of.fitted_scales(name)) for name in table.FITTED}
     whole_file.write_text(arguments.output, text_of(rows, header))
 
 
