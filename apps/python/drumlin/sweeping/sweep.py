@@ -12,7 +12,7 @@ from .. import _drumlin
 from ..commands import changes_of, measure, run, scene_file, scene_from_here
 from ..errors import DrumlinError
 from ..files import Folder
-from ..scenes import resolved
+from ..scenes import resolved, toml_of
 from ..study.runs import scalars_of
 from .executors import AT_WORK, arrived, run_all, workers_of
 from .report import Report
@@ -57,12 +57,13 @@ class Sweep:
 
     def __init__(self, scene, values, output, changes=()):
         self.settings, self.output = settings_of(values), pathlib.Path(output)
-        is_file = scene_from_here(scene, FORM) is scene
+        described = scene_from_here(scene, FORM)
+        is_file, described = described is scene, toml_of(described) if isinstance(described, dict) else described
         common = changes_of(changes, not is_file)
         self.changes = [common + changes_of(each, not is_file) for each in self.settings]
-        self.scene, self.resolved = scene, resolved(scene_from_here(scene, FORM), common)
+        self.scene, self.resolved = scene, resolved(described, common)
         for each in self.changes:
-            resolved(scene_from_here(scene, FORM), each)
+            resolved(described, each)
         self.folders = [Folder(self.output.absolute() / f"{number:03}") for number in range(len(self.settings))]
 
     def begin(self, overwrite=False, resume=True, request=""):
