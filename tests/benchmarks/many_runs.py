@@ -55,8 +55,8 @@ def measured(drumlin, steps, runs, folder):
     scene, program = folder / "scene.toml", drumlin.program()
     scene.write_text(drumlin.toml_of({"format": "drumlin-scene-1"} | box(steps)), encoding="utf-8")
     calls = {"alone": lambda seeds, to: alone(program, scene, seeds, to),
-             "run_all": lambda seeds, to: drumlin.run_all([functools.partial(drumlin.run, scene, to / f"{seed}", {"seed": seed}, resume=True) for seed in seeds],
-                                                          to, "local:1"),
+             "run_all": lambda seeds, to: drumlin.run_all([functools.partial(drumlin.run, scene, to / f"{seed}", {"seed": seed}, resume=True)
+                                                           for seed in seeds], to, "local:1"),
              "sweep": lambda seeds, to: drumlin.sweep(scene, {"seed": list(seeds)}, to, "local:1", report=False)}
     for name, call in calls.items():
         call(range(1, 3), folder / f"{name}-first")  # loads what is loaded once
