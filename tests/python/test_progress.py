@@ -1,5 +1,6 @@
 """Long calls: what they show, and that Ctrl-C ends them and what they have started."""
 
+import concurrent.futures
 import os
 import signal
 import sys
@@ -42,10 +43,11 @@ def test_lines_of_progress_are_no_part_of_an_error(box, tmp_path):
     assert "contact solver" in str(failed.value) and "%" not in str(failed.value)
 
 
-def test_ctrl_c_ends_all_runs_of_a_sweep_and_the_same_call_goes_on(box, tmp_path, interrupt_when):
+@pytest.mark.parametrize("executor", [lambda: "local:2", lambda: concurrent.futures.ProcessPoolExecutor(2)], ids=["threads", "processes"])
+def test_ctrl_c_ends_all_runs_of_a_sweep_and_the_same_call_goes_on(box, tmp_path, interrupt_when, executor):
     runs = [tmp_path / f"SWEEP/{number:03}" for number in range(3)]
     sweep = lambda: drumlin.sweep(box | {"stages": [{"name": "fall", "duration_s": 20, "time_step_s": 1e-3}]},  # noqa: E731
-                                  {"effects.friction.grain_grain": [0.1, 0.2, 0.3]}, tmp_path / "SWEEP", "local:2", report=False)
+                                  {"effects.friction.grain_grain": [0.1, 0.2, 0.3]}, tmp_path / "SWEEP", executor(), report=False)
 
     interrupt_when(*(run / "log.csv" for run in runs[:2]))
     with pytest.raises(KeyboardInterrupt):

@@ -57,11 +57,12 @@ def swept(given, executor):
     """Exit code of the sweep."""
     work = Sweep(given["scene"], values_of(given["vary"]), given["output"], given["set"])
     work.begin(given["overwrite"], given["resume"], given["sum"])
+    print(f"report: {pathlib.Path(given['output']).absolute() / 'index.html'}", flush=True)
     runs, unwritten = work.execute(executor, None, {} if given["measure"] else None, None, {"threads": given["threads"]}, given["quantities"])
     failed = [run for run in runs if run.error is not None]
     for run in failed:
         print(f"{run.folder.path.name}: {run.error}", file=sys.stderr)
-    print(f"{len(runs)} runs, {len(failed)} failed\nreport: {pathlib.Path(given['output']).absolute() / 'index.html'}")
+    print(f"{len(runs)} runs, {len(failed)} failed")
     if failed:
         return getattr(failed[0].error, "exit_code", 1)
     if unwritten:

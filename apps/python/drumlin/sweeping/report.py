@@ -11,7 +11,7 @@ from ..figures import whole_file
 from ..study.fits import Scalar, pooled_speeds
 
 SHARE = 0.02  # of the time may go into reports
-FIRST_S = 30  # no report earlier, but at the end
+FIRST_S = 30  # no figure earlier, but at the end
 MOST = 6  # quantities shown unless named
 DRUM = ("theta_deg", "Q", "H", "shear_rate", "lambda", "nu_bulk")  # what says most of a drum
 
@@ -35,6 +35,7 @@ class Report:
         self.rows = [{"name": f"{number:03}", "changes": dict(changes), "state": "waiting"} for number, changes in enumerate(settings)]
         self.numbers = [{} for _ in settings]
         self.begin = time.monotonic()
+        self.renew("running")
         self.due = self.begin + FIRST_S
 
     def ended(self, number, outcome):
@@ -58,7 +59,7 @@ class Report:
 
     def _draw(self, file, state):
         try:
-            if state != "interrupted":  # who interrupts does not wait for a figure
+            if self._names() and state != "interrupted":  # who interrupts does not wait for a figure
                 draw("figures/sweep_figures.py", file, self.folder)
             draw("pages/write_page.py", "sweep.html", file, self.folder)
         except DrumlinError as error:
