@@ -14,9 +14,27 @@ from drumlin import _drumlin
 from drumlin.commands import draw
 from drumlin.errors import NotConvergedError
 from drumlin.figures import whole_file
-from drumlin.inference import answer, design, emulator, posterior, question
+from drumlin.inference import answer, design, emulator, posterior, question, tables
 
-LEAST_PRICE_S = 0.05
+
+class Table:
+    """Runs that others made, or another model: rows of a table (docs/formats/infer.md)."""
+
+    runs, quantities = (), ()
+
+    def __init__(self, asked, scene):
+        self.asked, self.scene = asked, scene
+
+    def missing(self):
+        return []
+
+    def emulator(self, of_unit):
+        """(Emulator, rows that count)"""
+        points, values, errors = tables.read(self.scene, self.asked.ranges())
+        return emulator.Emulator(of_unit(points), values, errors, self.scene.names()), len(points)
+
+    def used(self, count):
+        return {"table": self.scene.scene, "runs": count}
 
 
 class Design:
@@ -49,6 +67,16 @@ class Design:
         return emulator.Emulator(of_unit(np.array(points)), np.array(values), np.array(errors), self.scene.names()), len(points)
 
 
+    def used(self, count):
+        """What infer.json says of them."""
+        return {"folder": str(self.family.folder), "runs": count, "failed": len(self.runs) - count,
+                "cpu_seconds": float(sum(run.cpu_seconds() for run in self.runs if run.status()))}
+
+
+def designs_of(asked, store):
+    return [Table(asked, scene) if scene.is_table else Design(asked, scene, store) for scene in asked.scenes]
+
+
 def make(designs, folder, executor, say, progress=None, price_only=False):
     """Makes the runs that are missing; says before what they cost, by the first of each scene."""
     count = sum(len(each.missing()) for each in designs)
@@ -75,8 +103,7 @@ def inferred(asked, designs):
         emulated, count = each.emulator(of.unit)
         values, errors = each.scene.values()
         of.data.append(posterior.Datum(emulated, values, errors, each.scene.realisations))
-        used.append({"scene": each.scene.name, "folder": str(each.family.folder), "runs": count, "failed": len(each.runs) - count,
-                     "cpu_seconds": float(sum(run.cpu_seconds() for run in each.runs if run.status()))})
+        used.append({"scene": each.scene.name} | each.used(count))
     samples, _ = of.sample()
     return samples, {"format": "drumlin-infer-1", "title": asked.title, "equal": asked.equal} | answer.answer(of, samples, asked.scenes) | {"designs": used}
 
@@ -101,7 +128,7 @@ def main(words):
     given = json.loads(words)
     asked, output = question.read_question(given["question"]), pathlib.Path(given["output"])
     store = pathlib.Path(given["designs"] or output.parent / "designs")
-    designs = [Design(asked, scene, store) for scene in asked.scenes]
+    designs = designs_of(asked, store)
     growing = _drumlin.GrowingOutput(given["output"], "infer", given["existing"] == "--resume", given["existing"] == "--overwrite", [given["question"]],
                                      FILES, given["sum"])
     growing.forget("*")

@@ -52,13 +52,15 @@ class Measured:
 
 @dataclasses.dataclass
 class Scene:
-    """`realisations`: of how many repetitions the measured numbers are the mean, for the chance that no interval of one run knows."""
+    """What was measured, and by what: a scene of grains with settings, or the rows of a table of runs in which its columns have the settings.
+    `realisations`: of how many repetitions the measured numbers are the mean, for the chance that no interval of one run knows."""
 
     name: str
     scene: str
     settings: dict
     realisations: int
     measured: list
+    is_table: bool = False
 
     def names(self):
         return [f"{self.name}: {name}" for one in self.measured for name in one.names]
@@ -162,10 +164,10 @@ def _measured(reader, table, key):
 
 
 def _scene(reader, table, key):
-    table = reader.known(table, key, ("name", "scene", "settings", "realisations", "measured"))
-    scene = table.get("scene")
-    if not isinstance(scene, str):
-        reader.fault(f"{key}.scene", "is missing", "a file, or the name of a shipped scene")
+    table = reader.known(table, key, ("name", "scene", "table", "settings", "realisations", "measured"))
+    scene = table.get("scene", table.get("table"))
+    if not isinstance(scene, str) or {"scene", "table"} <= set(table):
+        reader.fault(f"{key}.scene", "is missing" if scene is None else "is none", "one of scene (a file, or the name of a shipped scene) and table (a file)")
         scene = ""
     beside = reader.file.parent / scene
     measured = [_measured(reader, one, f"{key}.measured.{number}") for number, one in enumerate(table.get("measured", []))]
@@ -173,7 +175,7 @@ def _scene(reader, table, key):
         reader.fault(f"{key}.measured", "is empty", "one or more measured quantities")
     repeats = reader.number(table.get("realisations", 1), f"{key}.realisations", 1)
     return Scene(str(table.get("name", pathlib.Path(scene).stem)), str(beside if beside.is_file() else scene), table.get("settings", {}),
-                 int(repeats) if repeats == repeats else 1, measured)
+                 int(repeats) if repeats == repeats else 1, measured, "table" in table)
 
 
 def read_question(path):
