@@ -35,10 +35,10 @@ suppress_warnings = ["myst.header"]
 
 
 # What each page of the sidebar holds below it.
-NOTEBOOK_PAGES = ["first-drum", "profiles-and-laws", "flow-and-comparison", "sweep", "own-scene", "contact-problems", "lammps", "accuracy-and-time"]
+NOTEBOOK_PAGES = ["first-drum", "profiles-and-laws", "flow-and-comparison", "sweep", "own-scene", "contact-problems", "lammps", "accuracy-and-time", "infer"]
 BELOW = {
     "conventions": ["glossary"],
-    "scenes": ["cookbook/your-own-scene", "cookbook/pairs", "effects"],
+    "scenes": ["cookbook/your-own-scene", "cookbook/pairs", "cookbook/infer", "effects"],
     "scaling": ["robustness"],
     "cookbook/python": [f"notebooks/{name}" for name in NOTEBOOK_PAGES] if NOTEBOOKS else [],
     "theory/solvers": ["cookbook/contact-problems", "theory/impacts", "theory/energy", "theory/moving-cell"],

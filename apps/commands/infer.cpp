@@ -30,7 +30,8 @@ struct InferOptions {
     d.add("--executor", executor, "WHERE",
           "Who makes the runs: local, local:N (so many at a time) or dask:ADDRESS")
         .decides(Decides::nothing);
-    d.add("--price-only", price_only, "Makes the first run of each scene, says what all will cost, and ends");
+    d.add("--price-only", price_only, "Makes the first run of each scene, says what all will cost, and ends")
+        .decides(Decides::nothing);
     d.existing(existing, "Goes on where an earlier call was interrupted");
   }
 };

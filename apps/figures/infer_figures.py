@@ -85,8 +85,8 @@ def main(folder):
     style.use_style()
     content = json.loads((folder / "infer.json").read_text(encoding="utf-8"))
     _, _, columns = result_files.read_table(folder / "samples.csv", "drumlin-samples-1")
-    style.save(draw_corner(content, columns), folder / "corner.png", False)
-    style.save(draw_data(content), folder / "data.png", False)
+    style.save(draw_corner(content, columns), folder / "corner.png", content["reduced"])
+    style.save(draw_data(content), folder / "data.png", content["reduced"])
 
 
 if __name__ == "__main__":

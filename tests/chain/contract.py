@@ -133,7 +133,10 @@ def samples_in(drumlin, here, data, folder):
     csv.mkdir()
     (csv / "grains-0.csv").write_text("time_s,x_m,z_m,v_x_m_s,v_z_m_s,radius_m\n0,0,0,0,0,1e-3\n", encoding="utf-8")
     (csv / "import.toml").write_text('format = "drumlin-import-1"\ntitle = "A disc"\n[grains]\ndensity_kg_m3 = 2700\n[csv]\ngrains = ["grains-*.csv"]\n', encoding="utf-8")
-    return {"SCENE.toml": scene, "RHEOLOGY.toml": law, "RUN": run, "DIR": run, "FLOWRUN": flow, "FIELDS": flow, "LIMITS.toml": data / "limits" / "bed.toml",
+    (csv / "runs.csv").write_text("friction,theta_deg\n" + "".join(f"{0.1 * k},{20 + k}\n" for k in range(1, 9)), encoding="utf-8")
+    (csv / "question.toml").write_text('format = "drumlin-question-1"\nunknowns = { friction = [0.1, 0.8] }\n[[scenes]]\ntable = "runs.csv"\n'
+                                       'measured = [{ quantity = "theta_deg", value = 24, interval = 0.5 }]\n', encoding="utf-8")
+    return {"SCENE.toml": scene, "QUESTION.toml": csv / "question.toml", "RHEOLOGY.toml": law, "RUN": run, "DIR": run, "FLOWRUN": flow, "FIELDS": flow, "LIMITS.toml": data / "limits" / "bed.toml",
             "PROBLEM.h5": data / "problems" / "drum-300-mu-0.4-flow.h5", "DESCRIPTION.toml": csv / "import.toml", "INT": "1", "FLOAT": "1",
             "KEY=VALUE:VALUE...": "seed=1:2"}
 

@@ -92,8 +92,8 @@ def _fit(content):
     if fit["data"] <= len(content["unknowns"]):
         return [f"{fit['data']} numbers and {len(content['unknowns'])} unknowns: whether the scenes are the right ones cannot be told"]
     if not fit["is_misfit"]:
-        return [f"the data fit: of data sets that such grains give {fit['share']:.0%} fit as badly (chi square {fit['chi_square']:.1f} of {fit['data']} numbers)"]
-    words = [f"MISFIT: no grains in these ranges explain the data together: of data sets that such grains give {fit['share']:.1%} fit as badly (chi square "
+        return [f"the data fit: {fit['share']:.0%} of the data sets that such grains give fit as badly (chi square {fit['chi_square']:.1f} of {fit['data']} numbers)"]
+    words = [f"MISFIT: no grains in these ranges explain the data together: {fit['share']:.1%} of the data sets that they give fit as badly (chi square "
              f"{fit['chi_square']:.1f} of {fit['data']} numbers); the intervals below mean nothing until the cause is found"]
     off = sorted(content["data"], key=lambda row: -abs(row["off"]))
     return words + [f"{row['scene']}, {row['name']}: {row['value']:.4g} where {row['expected']:.4g} +- {row['expected_sd']:.2g} is expected"

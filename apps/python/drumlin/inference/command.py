@@ -20,7 +20,7 @@ from drumlin.inference import answer, design, emulator, posterior, question, tab
 class Table:
     """Runs that others made, or another model: rows of a table (docs/formats/infer.md)."""
 
-    runs, quantities = (), ()
+    runs, quantities, reduced = (), (), False
 
     def __init__(self, asked, scene):
         self.asked, self.scene = asked, scene
@@ -44,6 +44,10 @@ class Design:
         self.scene, self.quantities = scene, [one.quantity for one in scene.measured]
         self.family = design.family(scene.scene, scene.settings, asked.ranges(), store)
         self.runs = design.plan(self.family, asked.runs)
+
+    @property
+    def reduced(self):
+        return self.family.reduced
 
     def missing(self):
         return [run for run in self.runs if run.status() != "finished"]
@@ -105,7 +109,7 @@ def inferred(asked, designs):
         of.data.append(posterior.Datum(emulated, values, errors, each.scene.realisations))
         used.append({"scene": each.scene.name} | each.used(count))
     samples, _ = of.sample()
-    return samples, {"format": "drumlin-infer-1", "title": asked.title, "equal": asked.equal} | answer.answer(of, samples, asked.scenes) | {"designs": used}
+    return samples, {"format": "drumlin-infer-1", "reduced": any(each.reduced for each in designs), "title": asked.title, "equal": asked.equal} | answer.answer(of, samples, asked.scenes) | {"designs": used}
 
 
 def samples_text(names, samples):
@@ -129,13 +133,14 @@ def main(words):
     asked, output = question.read_question(given["question"]), pathlib.Path(given["output"])
     store = pathlib.Path(given["designs"] or output.parent / "designs")
     designs = designs_of(asked, store)
+    if given["price_only"]:
+        make(designs, store, given["executor"], say, price_only=True)
+        return
     growing = _drumlin.GrowingOutput(given["output"], "infer", given["existing"] == "--resume", given["existing"] == "--overwrite", [given["question"]],
                                      FILES, given["sum"])
     growing.forget("*")
     growing.save()
-    make(designs, output, given["executor"], say, price_only=given["price_only"])
-    if given["price_only"]:
-        return
+    make(designs, store, given["executor"], say)
     samples, content = inferred(asked, designs)
     write(output, list(asked.priors), samples, content | {"provenance": _drumlin.provenance()})
     for name in FILES:

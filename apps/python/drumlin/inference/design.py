@@ -47,6 +47,7 @@ class Family:
     unknowns: dict  # name: (low, high), or the name of another unknown that it equals
     folder: pathlib.Path
     given: dict
+    reduced: bool = False  # marked so
 
     def values(self, folder):
         """The unknowns of a run in this folder; None where it lies outside of the ranges or differs in a grain that is not asked for."""
@@ -84,7 +85,7 @@ def family(scene, settings, unknowns, store):
     known = [key for name in {*KEYS, *unknowns} for key in keys_of(name)]
     same = {key: value for key, value in content.items() if key not in known and key not in ("title", "seed")}
     name = hashlib.sha256(json.dumps(same, sort_keys=True).encode()).hexdigest()[:12]
-    return Family(str(scene), dict(settings), unknowns, pathlib.Path(store) / name, {key: content.get(key) for key in known})
+    return Family(str(scene), dict(settings), unknowns, pathlib.Path(store) / name, {key: content.get(key) for key in known}, content.get("reduced") is True)
 
 
 @dataclasses.dataclass
