@@ -12,4 +12,5 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3 (>= 3.11), python3-numpy, python3-scipy, python3-h5py, python3-matplotlib, python3-jinja2")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS
     "g++, cmake, libeigen3-dev, nlohmann-json3-dev, libfmt-dev, libhwy-dev, zlib1g-dev, libssl-dev, libhdf5-openmpi-dev, libdeal.ii-dev")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-distributed, python3-mpi4py")
 include(CPack)

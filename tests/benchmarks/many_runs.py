@@ -1,6 +1,6 @@
 """What many runs cost above their sum: a thousand tiny runs started one by one, by drumlin.run_all and by drumlin.sweep, in turn.
 
-usage: python3 tests/benchmarks/many_runs.py BUILD RECORD.json [RUNS]   (1000 unless told)
+usage: TMPDIR=/dev/shm python3 tests/benchmarks/many_runs.py BUILD RECORD.json [RUNS]   (1000 unless told; in memory, for disks have moods)
 
 Twenty discs fall into a box, in 300 and in 3000 steps. Blocks of 50 runs, one at a time, each with another seed: alone, by `drumlin run` from an empty program;
 then the same words by run_all and by sweep without its page. Processor time is that of all processes. What one renewal of the page takes, with all runs in
@@ -85,7 +85,7 @@ def main():
             cases.append(measured(drumlin, steps, runs, pathlib.Path(folder)))
             print(json.dumps(cases[-1]), flush=True)
     write(record, {"format": "drumlin-many-runs-1", "revision": drumlin.version().split("revision ")[1].split(",")[0],
-                   "command": "python3 tests/benchmarks/many_runs.py BUILD RECORD.json", **machine(), "load_before": load, "load_after": os.getloadavg()[0],
+                   "command": "TMPDIR=/dev/shm python3 tests/benchmarks/many_runs.py BUILD RECORD.json", **machine(), "load_before": load, "load_after": os.getloadavg()[0],
                    "cases": cases})
 
 

@@ -13,7 +13,7 @@ import socket
 import time
 import typing
 
-from ..errors import DrumlinError, InputError, Interrupted, IoError, Killed
+from ..errors import InputError, Interrupted, IoError, Killed
 from ..files import Folder
 from ..progress import Progress
 
