@@ -1,8 +1,8 @@
 """What many runs cost above their sum: a thousand tiny runs started one by one, by drumlin.run_all and by drumlin.sweep, in turn.
 
-usage: TMPDIR=/dev/shm python3 tests/benchmarks/many_runs.py BUILD RECORD.json [RUNS]   (1000 unless told; in memory, for disks have moods)
+usage: TMPDIR=/dev/shm python3 tests/benchmarks/many_runs.py BUILD RECORD.json   (in memory: disks have moods)
 
-Twenty discs fall into a box, in 300 and in 3000 steps. Blocks of 50 runs, one at a time, each with another seed: alone, by `drumlin run` from an empty program;
+Twenty discs fall into a box, in 300 steps, a thousand runs, and in 3000, two hundred. Blocks of 50 runs, one at a time, each with another seed: alone, by `drumlin run` from an empty program;
 then the same words by run_all and by sweep without its page. Processor time is that of all processes. What one renewal of the page takes, with all runs in
 it, is told apart: the page takes at most report.SHARE of the time, and one renewal at the end.
 """
@@ -19,7 +19,7 @@ import time
 
 from records import machine, write
 
-BLOCK, STEPS = 50, (300, 3000)
+BLOCK, STEPS = 50, {300: 1000, 3000: 200}  # steps: runs
 
 
 def box(steps):
@@ -75,12 +75,12 @@ def measured(drumlin, steps, runs, folder):
 
 
 def main():
-    build, record, runs = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]), int(sys.argv[3]) if len(sys.argv) > 3 else 1000
+    build, record = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
     sys.path.insert(0, str(build / "python"))
     import drumlin  # of that build
 
     load, cases = os.getloadavg()[0], []
-    for steps in STEPS:
+    for steps, runs in STEPS.items():
         with tempfile.TemporaryDirectory() as folder:
             cases.append(measured(drumlin, steps, runs, pathlib.Path(folder)))
             print(json.dumps(cases[-1]), flush=True)
