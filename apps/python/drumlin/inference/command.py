@@ -41,7 +41,7 @@ class Design:
     """The runs of one scene of a question."""
 
     def __init__(self, asked, scene, store):
-        self.scene, self.quantities = scene, [one.quantity for one in scene.measured]
+        self.asked, self.scene, self.quantities = asked, scene, [one.quantity for one in scene.measured]
         self.family = design.family(scene.scene, scene.settings, asked.ranges(), store)
         self.runs = design.plan(self.family, asked.runs)
 
