@@ -86,7 +86,7 @@ class Posterior:
         start = prior[random.choice(len(prior), WALKERS, p=weights / weights.sum())]
         start = np.clip(start + 1e-3 * (self.high - self.low) * random.standard_normal(start.shape), self.low, self.high)
         sampler = emcee.EnsembleSampler(WALKERS, len(self.names), self.log_density, vectorize=True,
-                                        moves=[(emcee.moves.DEMove(), 0.8), (emcee.moves.DESnookerMove(), 0.2)])
+                                        moves=[(emcee.moves.DEMove(), 0.8), (emcee.moves.StretchMove(), 0.2)])
         state, steps, time = emcee.State(start, random_state=random.get_state()), 0, np.inf
         while not steps >= LONG_ENOUGH * time:
             if steps >= MOST_STEPS:
