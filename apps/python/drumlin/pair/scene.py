@@ -11,6 +11,8 @@ from . import fill
 
 # From here on grains of one scene segregate, which no continuum here knows.
 SIZE_RATIO = 2.0
+# Friction of a wall along which nothing slides: material of mu below 0.67, beyond all laws of dense flow here, bears mu/sqrt(1 - mu^2) at most.
+HOLDS = 0.9
 MOTIONS = {"force": "is moved by a force", "pressure": "is moved by a pressure", "strain_rate": "is moved at a rate of strain", "oscillation": "shakes",
            "rocking": "rocks", "belt": "runs along itself"}
 
@@ -140,7 +142,8 @@ def shapes_of(read, i, wall):
 
 
 def condition_of(scene, wall):
-    """Rough with glued discs, smooth without friction, else the coefficient of grain against wall; discs that roll along a wall mobilise less."""
+    """Rough with glued discs and where material slides on itself before it slides on the wall, smooth without friction, else the coefficient of grain
+    against wall; discs that roll along a wall mobilise less."""
     if "rough" in wall:
         return {"condition": "rough"}
     friction = scene["effects"].get("friction", {"grain_wall": 0.0})
@@ -150,7 +153,7 @@ def condition_of(scene, wall):
             value = pair["value"]
     if value == 0:
         return {"condition": "smooth"}
-    return {"condition": "friction", "friction": value} if value <= 2 else {"condition": "rough"}
+    return {"condition": "friction", "friction": value} if value < HOLDS else {"condition": "rough"}
 
 
 def moves_of(read, first, starts, fastest):
