@@ -27,6 +27,7 @@ myst_update_mathjax = False
 mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"  # Debian's MathJax 2, beside the pages: docs/build copies it
 autodoc_member_order, autodoc_typehints = "bysource", "description"
 html_theme = "furo"
+highlight_language = "console"  # of blocks that name none
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_title = f"Drumlin {version}"

@@ -27,7 +27,7 @@ def written(drumlin, templates, kind, folder):
     require(f"{file}: a commented" in said and "next: drumlin " in said, said)
     require(text == (templates / f"{kind}.toml").read_text(encoding="utf-8").replace("THIS.toml", str(file)), f"{kind}: another text")
     commented = [line for line in text.splitlines() if "#" in line]
-    require(len(commented) > 10 and max(map(len, text.splitlines())) <= 160 + len(str(file)), f"{kind}: hardly a comment, or long lines")
+    require(len(commented) > 7 and max(map(len, text.splitlines())) <= 160 + len(str(file)), f"{kind}: hardly a comment, or long lines")
     _, refused = drumlin("new", kind, "-o", file, code=2)
     require("exists already" in refused, refused)
     drumlin("new", kind, "-o", file, "--overwrite")

@@ -14,6 +14,15 @@ from .figures import quantity_table, result_files
 from .inputs import file_name, require_file
 
 
+SNAPSHOT_FORMAT = "drumlin-snapshot-1"
+# Unit and meaning of what a snapshot holds; other files take theirs from docs/formats/quantities.md.
+SNAPSHOT = {"x": ("d", "centres"), "z": ("d", "centres"), "v_x": ("sqrt(g d)", ""), "v_z": ("sqrt(g d)", ""), "spin": ("sqrt(g/d)", "clockwise"), "radius": ("d", ""),
+            "mass": ("rho0 d^2", ""), "displacement_x": ("d", "over the window"), "displacement_z": ("d", "over the window"), "time": ("sqrt(d/g)", ""),
+            "window": ("sqrt(d/g)", "of the displacements"), "gravity": ("g", "along x and z"), "period": ("d", "0: none"), "i": ("", "grains in contact"),
+            "j": ("", "grains in contact; below 0: wall shape -1 - j"), "normal": ("", "from j to i"), "force_n": ("rho0 g d^2", "on i along the normal"),
+            "force_t": ("rho0 g d^2", "on i along (n_z, -n_x)"), "force": ("rho0 g d^2", "on i along x and z"), "scales": ("", "in SI")}
+
+
 class Arrays(dict):
     """Numbers and arrays of a file by name, table["v_x"] or table.v_x, in the units of its page in docs/formats: (rows,) of a table, (z, x) of maps,
     (grains,) and (contacts,) or (contacts, 2) of a snapshot. `format`, `header` (texts by name) and `path` say what it is.
@@ -48,13 +57,13 @@ class Arrays(dict):
         return pandas.DataFrame({name: values for name, values in self.items() if np.ndim(values) == 1 and np.size(values) == length})
 
     def __repr__(self):
-        """A line for each entry: name, shape, unit and meaning as far as docs/formats/quantities.md knows them."""
+        """A line for each entry: name, shape, unit and meaning as far as docs/formats says them."""
         lines = [f"<{self.format or self.path.suffix[1:]} of {self.path}"]
         for name, value in self.items():
             outer, of_interval = name.removesuffix("_ci99"), name.endswith("_ci99")
-            quantity = quantity_table.FIELDS.get(outer) or quantity_table.SCALARS.get(outer)
-            unit = "" if quantity is None or quantity.unit == "1" else quantity.unit
-            meaning = "99 % half width" if of_interval else quantity.meaning if quantity else ""
+            quantity = quantity_table.SCALARS.get(outer) or quantity_table.field(outer)
+            unit, meaning = SNAPSHOT.get(name, ("", "")) if self.format == SNAPSHOT_FORMAT else (quantity.unit, quantity.meaning)
+            unit, meaning = "" if unit == "1" else unit, "99 % half width" if of_interval else meaning
             shape = str(np.shape(value)) if np.shape(value) else str(value)
             lines.append(f"  {name:24} {' '.join(shape.split())[:28]:14} {unit:12} {meaning}".rstrip())
         return "\n".join(lines) + ">"
@@ -159,7 +168,7 @@ def _contact_problem(arrays, path):
 def _read_hdf5(path):
     _drumlin.check_hdf5(file_name(path))
     form, arrays = result_files.read_arrays(path)
-    if form == "drumlin-snapshot-1":
+    if form == SNAPSHOT_FORMAT:
         return Arrays(result_files.read_snapshot(path), path, form)
     if form == "drumlin-maps-1":
         header, x, z, fields, half_widths = result_files.read_maps(path)
