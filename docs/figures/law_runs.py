@@ -75,7 +75,7 @@ def overrides(r):
     step, forget, strain, snapshots = plan_of(r["I"])
     rate = r["I"] / INERTIAL_TIME
     smallest, largest, distribution = diameters(r["sizes"])
-    height = (100 if distribution else 62) * r["count"] / 400
+    height = (62 if largest <= 2.5 else 100) * r["count"] / 400
     values = {"seed": r["seed"], "grains.generated.count": r["count"], "grains.generated.diameter_min_mm": smallest,
               "grains.generated.diameter_max_mm": largest, "periodic_z.z_max_mm": height, "grains.generated.region.max_mm": f"[40, {height}]",
               "effects.friction.grain_grain": r["friction"], "effects.restitution.grain_grain": r["restitution"],
