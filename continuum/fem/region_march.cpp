@@ -47,6 +47,12 @@ std::map<Side, BoundaryCondition> sides_of(const std::shared_ptr<const Region>& 
   return sides;
 }
 
+double total_area(const std::vector<Outline>& outlines) {
+  double sum = 0;
+  for (const Outline& outline : outlines) sum += area(outline);
+  return sum;
+}
+
 // A flow on its way.
 class FreeFlow {
  public:
@@ -244,8 +250,9 @@ class FreeFlow {
   // A contact that would pass the end of a wall which moves along its own stays at that end.
   std::vector<Vec2> behind_moving_walls(std::vector<Vec2> x, double dt) const {
     const auto& boundary = state_.mesh.boundary;
-    for (std::size_t i = 0, n = boundary.size(); i < n; ++i) {
-      const auto &before = boundary[(i + n - 1) % n], &after = boundary[i];
+    const std::vector<std::size_t> side_before = sides_before(state_.mesh);
+    for (std::size_t i = 0; i < boundary.size(); ++i) {
+      const auto &before = boundary[side_before[i]], &after = boundary[i];
       if ((before.part < 0) == (after.part < 0)) continue;
       const RegionPart& wall =
           plan_.region.parts[static_cast<std::size_t>(std::max(before.part, after.part))];
@@ -273,7 +280,7 @@ class FreeFlow {
     ++state_.steps_on_mesh;
     state_.discharged += flow_.outflow * dt;
     state_.area -= flow_.outflow * dt;
-    now_.area = area(outline_of(state_.mesh));
+    now_.area = total_area(outlines_of(state_.mesh));
     RegionTotals& totals = state_.totals;
     totals.mass_error =
         std::max(totals.mass_error, std::abs(now_.area + state_.discharged - totals.fill) / totals.fill);
@@ -295,15 +302,21 @@ class FreeFlow {
   // Walls that are no longer there leave a free surface before anything is laid down on them, and so do those
   // that would pull.
   void remesh_where_needed() {
-    const Outline before = outline_of(state_.mesh);
-    auto [laid, passed] =
-        laid_down(relabelled(before, plan_.region, state_.time), plan_.region, state_.time, plan_.size);
-    state_.discharged += passed;
-    state_.area -= passed;
-    let_go(laid);
-    if (laid.part != before.part || state_.steps_on_mesh >= most_steps_on_a_mesh ||
-        quality(state_.mesh) <= poorest_quality)
-      remesh(laid);
+    const std::vector<Outline> before = outlines_of(state_.mesh);
+    std::vector<Outline> after;
+    for (const Outline& outline : before) {
+      auto [pieces, passed] =
+          laid_down(relabelled(outline, plan_.region, state_.time), plan_.region, state_.time, plan_.size);
+      state_.discharged += passed;
+      state_.area -= passed;
+      for (Outline& piece : pieces) {
+        let_go(piece);
+        after.push_back(std::move(piece));
+      }
+    }
+    const bool same = std::ranges::equal(before, after, {}, &Outline::part, &Outline::part);
+    if (!same || state_.steps_on_mesh >= most_steps_on_a_mesh || quality(state_.mesh) <= poorest_quality)
+      remesh(std::move(after));
   }
 
   // From the surface on, as far as a wall that moves away would have to pull the material along.
@@ -327,14 +340,17 @@ class FreeFlow {
     return n.x * n.x * at.sigma_xx + n.z * n.z * at.sigma_zz - 2 * n.x * n.z * at.sigma_xz < 0;
   }
 
-  void remesh(const Outline& outline) {
+  // Each piece keeps its share of the area.
+  void remesh(std::vector<Outline> outlines) {
     clock_(Work::refinement, [&] {
       const std::shared_ptr<SolvedLevel> old = level_;
       const RegionMesh old_mesh = state_.mesh;
       const SplitTriangles old_split = *split_;
-      state_.mesh = mesh_of(with_area(resampled(outline, plan_.region, state_.time, plan_.size), plan_.region,
-                                      state_.time, state_.area),
-                            plan_.size);
+      const double scale = state_.area / total_area(outlines);
+      for (Outline& outline : outlines)
+        outline = with_area(resampled(outline, plan_.region, state_.time, plan_.size), plan_.region,
+                            state_.time, scale * area(outline));
+      state_.mesh = mesh_of(outlines, plan_.size);
       discretise();
       fem::transfer(*old, old_mesh, *level_);
       const std::vector<Vec2>& now = state_.mesh.vertices;
@@ -364,15 +380,6 @@ class FreeFlow {
 };
 
 }  // namespace
-
-Outline outline_of(const RegionMesh& mesh) {
-  Outline outline;
-  for (const auto& edge : mesh.boundary) {
-    outline.points.push_back(mesh.vertices[edge.from]);
-    outline.part.push_back(edge.part);
-  }
-  return outline;
-}
 
 RegionState filled(const RegionMarch& march) {
   const Outline fill = outline_of(march.region, 0, march.size);

@@ -81,7 +81,4 @@ RegionState filled(const RegionMarch& march);
 /// A state as a flow; its stresses are those of the steady law.
 FlowField flow_of(const RegionMarch& march, const RegionState& state);
 
-/// The outline of a mesh.
-Outline outline_of(const RegionMesh& mesh);
-
 }  // namespace drumlin::continuum

@@ -6,6 +6,7 @@
 
 #include "continuum/model/part_line.hpp"
 #include "continuum/model/plane_vector.hpp"
+#include "continuum/model/region_mesh.hpp"
 
 namespace drumlin::continuum {
 namespace {
@@ -44,12 +45,13 @@ class Boundary {
 
   void mark(std::vector<Freedom>& freedom) const {
     const std::size_t n = mesh_.boundary.size();
+    const std::vector<std::size_t> side_before = sides_before(mesh_);
     std::vector<double> flux = material_.free_flux;
     // Contacts first, and of them those that do not move as the flux asks: what they do not take goes to
     // their neighbours.
     for (const bool takes : {false, true})
       for (std::size_t i = 0; i < n; ++i) {
-        const auto &before = mesh_.boundary[(i + n - 1) % n], &after = mesh_.boundary[i];
+        const auto &before = mesh_.boundary[side_before[i]], &after = mesh_.boundary[i];
         const bool comes_free = before.part < 0, goes_free = after.part < 0;
         if (comes_free == goes_free) continue;
         const unsigned int v = after.from, next = comes_free ? before.from : after.to;
@@ -59,7 +61,7 @@ class Boundary {
         flux[next] += flux[v] - dot(material_.free_normal[v], freedom[v].velocity);
       }
     for (std::size_t i = 0; i < n; ++i) {
-      const auto &before = mesh_.boundary[(i + n - 1) % n], &after = mesh_.boundary[i];
+      const auto &before = mesh_.boundary[side_before[i]], &after = mesh_.boundary[i];
       const unsigned int v = after.from;
       if (before.part < 0 && after.part < 0)
         freedom[v] = free(v, flux[v]);

@@ -327,7 +327,7 @@ double area(const Outline& outline) {
   return sum;
 }
 
-std::optional<Vec2> crosses_itself(const Outline& outline) {
+std::optional<Crossing> crossing_of(const Outline& outline) {
   const auto& p = outline.points;
   const std::size_t n = p.size();
   const auto at = [&](std::size_t i) { return p[i % n]; };
@@ -338,14 +338,24 @@ std::optional<Vec2> crosses_itself(const Outline& outline) {
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = by_x[k];
     const Vec2 side = at(i + 1) - at(i), next = at(i + 2) - at(i + 1);
-    if (!(dot(side, side) > 0) || (cross(side, next) == 0 && dot(side, next) < 0)) return at(i + 1);
+    if (!(dot(side, side) > 0) || (cross(side, next) == 0 && dot(side, next) < 0))
+      return Crossing{i, (i + 1) % n};
     for (std::size_t l = k + 1; l < n && least(by_x[l]) <= std::max(at(i).x, at(i + 1).x); ++l) {
       const std::size_t j = by_x[l];
       if ((i + 1) % n != j && (j + 1) % n != i && sides_meet(at(i), at(i + 1), at(j), at(j + 1)))
-        return at(j);
+        return Crossing{i, j};
     }
   }
   return {};
+}
+
+bool meet(const Outline& one, const Outline& other) {
+  const std::size_t n = one.points.size(), m = other.points.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < m; ++j)
+      if (sides_meet(one.points[i], one.points[(i + 1) % n], other.points[j], other.points[(j + 1) % m]))
+        return true;
+  return false;
 }
 
 }  // namespace drumlin::continuum

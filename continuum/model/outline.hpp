@@ -35,8 +35,14 @@ double area(const Outline& outline);
 /// area is exact to rounding. Throws NotConvergedError where nothing is free.
 Outline with_area(const Outline& outline, const Region& region, double time, double target);
 
-/// A place at which two sides meet that are not neighbours, or a side has no length or turns back on the
-/// one before.
-std::optional<Vec2> crosses_itself(const Outline& outline);
+/// Two sides, by the points from which they go.
+struct Crossing {
+  std::size_t first = 0, second = 0;
+};
+/// Two sides that meet and are no neighbours; or a side that has no length, or on which the next one turns
+/// back, with that next one.
+std::optional<Crossing> crossing_of(const Outline& outline);
+/// Whether sides of one meet sides of the other.
+bool meet(const Outline& one, const Outline& other);
 
 }  // namespace drumlin::continuum

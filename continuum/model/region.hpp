@@ -57,7 +57,7 @@ struct RegionMesh {
     unsigned int from = 0, to = 0;  ///< vertices, the material on the left
     int part = Outline::free;
   };
-  std::vector<Edge> boundary;  ///< round the outline in its order
+  std::vector<Edge> boundary;  ///< round one outline after the other in its order
 };
 
 }  // namespace drumlin::continuum

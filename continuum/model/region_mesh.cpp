@@ -244,14 +244,53 @@ RegionMesh mesh_from(const Triangulation& triangulation, const Outline& outline)
 }  // namespace
 
 RegionMesh mesh_of(const Outline& outline, const std::function<double(Vec2)>& size) {
-  if (const auto where = crosses_itself(outline))
-    throw NotConvergedError(
-        fmt::format("the outline of the material crosses itself at ({:g}, {:g})", where->x, where->z));
+  if (const auto sides = crossing_of(outline))
+    throw NotConvergedError(fmt::format("the outline of the material crosses itself at ({:g}, {:g})",
+                                        outline.points[sides->second].x, outline.points[sides->second].z));
   if (!(area(outline) > 0)) throw NotConvergedError("the outline of the material runs clockwise");
   Triangulation triangulation(outline.points);
   triangulation.refine(size);
   for (int k = 0; k < smoothings; ++k) triangulation.smooth(size);
   return mesh_from(triangulation, outline);
+}
+
+RegionMesh mesh_of(std::span<const Outline> outlines, const std::function<double(Vec2)>& size) {
+  RegionMesh whole;
+  for (std::size_t i = 0; i < outlines.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j)
+      if (meet(outlines[i], outlines[j]))
+        throw NotConvergedError(
+            fmt::format("pieces of the material that had broken meet again near ({:g}, {:g})",
+                        outlines[i].points[0].x, outlines[i].points[0].z));
+    const RegionMesh piece = mesh_of(outlines[i], size);
+    const auto first = static_cast<unsigned>(whole.vertices.size());
+    whole.vertices.insert(whole.vertices.end(), piece.vertices.begin(), piece.vertices.end());
+    for (const auto& [a, b, c] : piece.triangles)
+      whole.triangles.push_back({a + first, b + first, c + first});
+    for (const auto& edge : piece.boundary)
+      whole.boundary.push_back({edge.from + first, edge.to + first, edge.part});
+  }
+  return whole;
+}
+
+std::vector<Outline> outlines_of(const RegionMesh& mesh) {
+  std::vector<Outline> outlines;
+  unsigned int next = 0;
+  for (std::size_t i = 0; i < mesh.boundary.size(); ++i) {
+    const auto& edge = mesh.boundary[i];
+    if (i == 0 || edge.from != next) outlines.emplace_back();
+    outlines.back().points.push_back(mesh.vertices[edge.from]);
+    outlines.back().part.push_back(edge.part);
+    next = edge.to;
+  }
+  return outlines;
+}
+
+std::vector<std::size_t> sides_before(const RegionMesh& mesh) {
+  std::vector<std::size_t> ending(mesh.vertices.size()), before;
+  for (std::size_t i = 0; i < mesh.boundary.size(); ++i) ending[mesh.boundary[i].to] = i;
+  for (const auto& edge : mesh.boundary) before.push_back(ending[edge.from]);
+  return before;
 }
 
 double quality(const RegionMesh& mesh) {

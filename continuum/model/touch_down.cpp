@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "continuum/model/outline_pieces.hpp"
 #include "continuum/model/plane_vector.hpp"
 #include "continuum/model/wall_path.hpp"
 #include "coupling/core/basics/errors.hpp"
@@ -15,7 +16,7 @@ namespace {
 constexpr double film = 0.02, touching = 0.01, near_wall = 0.1, deepest = 2;  // heights above a wall in sizes
 constexpr double same_point = 1e-6;                                           // d
 constexpr double gap = 0.5;                                                   // size^2
-constexpr double largest_bubble = 16, largest_share = 0.05;                   // size^2, of the area
+constexpr int most_rounds = 100;
 
 // The outline seen from a contact: it is point 0, the sides from there on are free, those before it on a
 // part.
@@ -224,8 +225,7 @@ std::optional<Outline> one_step(const std::vector<Front>& fronts, const Region& 
     const auto next = touched(front, region, time);
     if (!next) continue;
     const double air = area_between(front, *next), whole = area(outline_from(front));
-    if (air < std::max(largest_bubble * front.size * front.size, largest_share * whole))
-      return outline_from(*next);
+    if (air < largest_bubble(front.size, whole)) return outline_from(*next);
     far = next->points[0];
   }
   return {};
@@ -233,54 +233,92 @@ std::optional<Outline> one_step(const std::vector<Front>& fronts, const Region& 
 
 // Air in a notch of the free surface sharper than this is closed: its sides would meet in a step or two.
 constexpr double sharpest_notch_deg = 40;
+// A tip away from contacts that is sharper and smaller than this is cut off: a grain holds on to no others
+// there, and what bears it would be tension.
+constexpr double sharpest_tip_deg = 60, largest_tip = 1;  // size^2
 
-Outline without_notches(Outline outline) {
-  const double sharpest = std::cos(sharpest_notch_deg * std::numbers::pi / 180);
+Outline without_points(Outline outline, const std::function<bool(const Outline&, std::size_t)>& goes) {
   auto& [points, part] = outline;
   for (std::size_t i = 0, checked = 0; checked < points.size() && points.size() > 3;) {
-    const std::size_t n = points.size(), before = (i + n - 1) % n, next = (i + 1) % n;
-    const Vec2 u = points[before] - points[i], v = points[next] - points[i];
-    if (part[before] == Outline::free && part[i] == Outline::free && cross(u, v) > 0 &&
-        dot(u, v) > sharpest * length(u) * length(v)) {
+    const std::size_t n = points.size(), before = (i + n - 1) % n;
+    if (part[before] == Outline::free && part[i] == Outline::free && goes(outline, i)) {
       points.erase(points.begin() + static_cast<std::ptrdiff_t>(i));
       part.erase(part.begin() + static_cast<std::ptrdiff_t>(i));
       i = before < i ? before : before - 1;
       checked = 0;
       continue;
     }
-    i = next;
+    i = (i + 1) % n;
     ++checked;
   }
   return outline;
+}
+
+// Twice the area that goes with the point, positive if it is air, if the sides there are that sharp.
+std::optional<double> sharp_at(const Outline& outline, std::size_t i, double angle_deg) {
+  const std::size_t n = outline.points.size();
+  const Vec2 u = outline.points[(i + n - 1) % n] - outline.points[i],
+             v = outline.points[(i + 1) % n] - outline.points[i];
+  if (dot(u, v) <= std::cos(angle_deg * std::numbers::pi / 180) * length(u) * length(v)) return {};
+  return cross(u, v);
+}
+
+Outline without_notches(const Outline& outline) {
+  return without_points(outline, [](const Outline& now, std::size_t i) {
+    return sharp_at(now, i, sharpest_notch_deg).value_or(-1) > 0;
+  });
+}
+
+Outline without_tips(const Outline& outline, const SizeField& size) {
+  return without_points(outline, [&](const Outline& now, std::size_t i) {
+    const std::size_t n = now.points.size();
+    const bool at_contact =
+        now.part[(i + n - 2) % n] != Outline::free || now.part[(i + 1) % n] != Outline::free;
+    const double here = size(now.points[i]), air = sharp_at(now, i, sharpest_tip_deg).value_or(0);
+    return !at_contact && air < 0 && air > -2 * largest_tip * here * here;
+  });
+}
+
+// Each step takes at least one free point away.
+Outline with_fronts_laid(Outline outline, const Region& region, double time, const SizeField& size,
+                         double angle, double& passed) {
+  for (;;) {
+    std::optional<Vec2> far;
+    const auto next = one_step(fronts_of(outline, region, time, size), region, time, angle, passed, far);
+    if (next) {
+      outline = *next;
+      continue;
+    }
+    if (far)
+      throw NotConvergedError(
+          fmt::format("the material has come to a wall at ({:g}, {:g}), far from its "
+                      "contacts: so much air is not closed",
+                      far->x, far->z));
+    return outline;
+  }
 }
 
 }  // namespace
 
 LaidDown laid_down(const Outline& outline, const Region& region, double time, const SizeField& size,
                    double angle_deg) {
-  LaidDown laid{with_contacts_on_walls(without_notches(outline), region, time)};
-  const double angle = angle_deg * std::numbers::pi / 180;
-  // Each step takes at least one free point away.
-  for (;;) {
-    std::optional<Vec2> far;
-    const auto next =
-        one_step(fronts_of(laid.outline, region, time, size), region, time, angle, laid.passed, far);
-    if (!next) {
-      if (far)
-        throw NotConvergedError(
-            fmt::format("the material has come to a wall at ({:g}, {:g}), far from its contacts: surfaces "
-                        "that merge are not "
-                        "followed",
-                        far->x, far->z));
-      break;
+  LaidDown laid;
+  std::vector<Outline> rest = {outline};
+  for (int rounds = 0; !rest.empty(); ++rounds) {
+    if (rounds > most_rounds) throw NotConvergedError("the material falls into too many pieces");
+    const Outline next = with_contacts_on_walls(without_notches(rest.back()), region, time);
+    rest.pop_back();
+    OutlinePieces pieces = pieces_of(next, region, time, size);
+    laid.passed += pieces.passed;
+    if (pieces.outlines.size() > 1) {
+      rest.insert(rest.end(), pieces.outlines.begin(), pieces.outlines.end());
+      continue;
     }
-    laid.outline = *next;
+    Outline settled = without_tips(with_fronts_laid(std::move(pieces.outlines[0]), region, time, size,
+                                                    angle_deg * std::numbers::pi / 180, laid.passed),
+                                   size);
+    (crossing_of(settled) ? rest : laid.outlines).push_back(std::move(settled));
   }
-  if (const auto where = crosses_itself(laid.outline))
-    throw NotConvergedError(
-        fmt::format("the outline of the material crosses itself at ({:g}, {:g}): surfaces that break or "
-                    "merge are not followed",
-                    where->x, where->z));
   return laid;
 }
 

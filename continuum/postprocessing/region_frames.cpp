@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuum/model/region_mesh.hpp"
+
 namespace drumlin::continuum {
 namespace {
 
 constexpr unsigned int points_per_side = 5;  // per cell: closer together than a kernel's width
 
-// Area of the outline in each column over the column's width.
-std::vector<double> column_heights(const MapGrid& grid, const Outline& outline) {
-  std::vector<double> heights(grid.columns, 0.0);
+// Adds the area of the outline in each column over the column's width.
+void add_column_heights(const MapGrid& grid, const Outline& outline, std::vector<double>& heights) {
   const std::size_t n = outline.points.size();
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2 a = outline.points[i], b = outline.points[(i + 1) % n];
@@ -30,7 +31,6 @@ std::vector<double> column_heights(const MapGrid& grid, const Outline& outline) 
             sign * 0.5 * (z_at(from) + z_at(to)) * (to - from) / grid.spacing_x;
     }
   }
-  return heights;
 }
 
 }  // namespace
@@ -53,7 +53,9 @@ Frame region_frame(const FrameRequest& request, const Region& region, const Regi
     kinetic += 0.5 * request.nu * (s.velocity.x * s.velocity.x + s.velocity.z * s.velocity.z) * piece.area;
   }
   Frame frame = smoothed.frame(request.nu);
-  frame.mass_height = column_heights(request.grid, outline_of(state.mesh));
+  frame.mass_height.assign(request.grid.columns, 0.0);
+  for (const Outline& outline : outlines_of(state.mesh))
+    add_column_heights(request.grid, outline, frame.mass_height);
   frame.scalars = {{"area", area},
                    {"centre_x", center.x / area},
                    {"centre_z", center.z / area},

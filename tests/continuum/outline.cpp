@@ -124,7 +124,7 @@ TEST(Outline, IsGivenAnAreaByItsFreePoints) {
       const Outline moved = with_area(outline, region, 0, share * area(outline));
       EXPECT_NEAR(area(moved), share * area(outline), 1e-12 * area(outline));
       EXPECT_EQ(moved.part, outline.part);
-      EXPECT_FALSE(crosses_itself(moved));
+      EXPECT_FALSE(crossing_of(moved));
     }
   }
   // The surface of a box stays level: its contacts go with it.
@@ -137,7 +137,7 @@ TEST(Outline, IsGivenAnAreaByItsFreePoints) {
 TEST(Outline, TellsWhereItCrossesItself) {
   const auto crossing = [](std::vector<Vec2> points) {
     const std::vector<int> part(points.size(), Outline::free);
-    return crosses_itself({std::move(points), part}).has_value();
+    return crossing_of({std::move(points), part}).has_value();
   };
   EXPECT_FALSE(crossing({{0, 0}, {4, 0}, {4, 4}, {2, 1}, {0, 4}}));
   EXPECT_FALSE(crossing({{0, 0}, {1, 0}, {2, 0}, {2, 1}}));

@@ -10,6 +10,7 @@
 #include "continuum/fem/runtime.hpp"
 #include "continuum/io/region_state_file.hpp"
 #include "continuum/model/outline.hpp"
+#include "continuum/model/region_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace drumlin::region_march_test {
@@ -62,7 +63,7 @@ struct Flow {
     for (const auto& step : steps) speed = std::max(speed, step.fastest);
     return speed;
   }
-  Outline outline() const { return outline_of(state.mesh); }
+  Outline outline() const { return outlines_of(state.mesh).front(); }
   double height() const {
     double z = 0;
     for (const Vec2& x : state.mesh.vertices) z = std::max(z, x.z);

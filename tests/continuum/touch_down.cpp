@@ -146,10 +146,10 @@ TEST(TouchDown, IsTheSameForFloorsSlopesAndWallsFromBothSides) {
       const Region region = region_of(c, view);
       const Outline before = fill_of(region);
       const LaidDown laid = laid_down(before, region, 0, one);
-      EXPECT_NEAR(length(contact_of(laid.outline, view.mirrored) - view(c.contact)), 0, 1e-9);
-      EXPECT_NEAR(area(laid.outline), area(before), c.kept * area(before));
+      EXPECT_NEAR(length(contact_of(laid.outlines.front(), view.mirrored) - view(c.contact)), 0, 1e-9);
+      EXPECT_NEAR(area(laid.outlines.front()), area(before), c.kept * area(before));
       EXPECT_EQ(laid.passed, 0);
-      const Outline fine = resampled(laid.outline, region, 0, one);
+      const Outline fine = resampled(laid.outlines.front(), region, 0, one);
       const Outline whole = with_area(fine, region, 0, area(before));
       EXPECT_NEAR(area(whole), area(before), 1e-12 * area(before));
       EXPECT_GT(quality(mesh_of(whole, one)), 0.02);
@@ -165,7 +165,7 @@ TEST(TouchDown, FollowsADrum) {
   }
   outline.points.insert(outline.points.end(), {{9.9, -2.7}, {8, -1.5}, {5, -2}, {0, -3}});
   outline.part.resize(outline.points.size(), Outline::free);
-  const Outline laid = laid_down(outline, drum, 0, one).outline;
+  const Outline laid = laid_down(outline, drum, 0, one).outlines.front();
   const Vec2 contact = contact_of(laid, false);
   EXPECT_NEAR(length(contact), 10, 1e-12);
   EXPECT_GT(contact.z, -2.8);
@@ -179,18 +179,18 @@ TEST(TouchDown, CutsOffWhatHasPassedAnOpening) {
                      {{0, 0}, {12.5, 0}, {13.4, 0.8}, {13.2, 1.5}, {12.8, 2.5}, {0, 4}}};
   const Outline before = fill_of(chute);
   const LaidDown laid = laid_down(before, chute, 0, one);
-  EXPECT_NEAR(contact_of(laid.outline, false).x, 13, 1e-12);
-  EXPECT_NEAR(contact_of(laid.outline, false).z, 2, 1e-12);
+  EXPECT_NEAR(contact_of(laid.outlines.front(), false).x, 13, 1e-12);
+  EXPECT_NEAR(contact_of(laid.outlines.front(), false).z, 2, 1e-12);
   EXPECT_NEAR(laid.passed, 0.5 * (0.4 * (1.5 - 4 / 9.0) + 0.2 * (2 - 0.8)), 1e-12);
-  EXPECT_NEAR(area(laid.outline), area(before) - laid.passed + 0.5 * 0.5 * 4 / 9,
+  EXPECT_NEAR(area(laid.outlines.front()), area(before) - laid.passed + 0.5 * 0.5 * 4 / 9,
               1e-12);  // the corner is closed
 
   // Above the corner first: air is left below.
   const Region fall{chute.parts, {{0, 0}, {8, 0}, {9, 2}, {11, 3}, {13.2, 4}, {13.2, 5}, {11, 6}, {0, 7}}};
   const LaidDown over = laid_down(fill_of(fall), fall, 0, one);
-  EXPECT_NEAR(over.passed, area(fill_of(fall)) - area(over.outline), 1e-12);
+  EXPECT_NEAR(over.passed, area(fill_of(fall)) - area(over.outlines.front()), 1e-12);
   EXPECT_NEAR(over.passed, 0.2 * (1 + 0.2 / 2.2), 1e-12);
-  EXPECT_EQ(contact_of(over.outline, false).x, 8);
+  EXPECT_EQ(contact_of(over.outlines.front(), false).x, 8);
 }
 
 TEST(TouchDown, LetsAColumnSpreadIntoACorner) {
@@ -204,32 +204,84 @@ TEST(TouchDown, LetsAColumnSpreadIntoACorner) {
           outline.part[i] == Outline::free && outline.part[(i + n - 1) % n] == Outline::free)
         p = p + 0.03 * Vec2{p.x * std::tanh(p.z) * (1 - p.x / 16.3), -p.z};
     const LaidDown laid = laid_down(relabelled(outline, region, 0), region, 0, one);
-    outline = with_area(resampled(laid.outline, region, 0, one), region, 0, 100);
+    outline = with_area(resampled(laid.outlines.front(), region, 0, one), region, 0, 100);
     ASSERT_NEAR(area(outline), 100, 1e-10);
     ASSERT_GT(quality(mesh_of(outline, one)), 0.05);
   }
   EXPECT_EQ(contact_of(outline, false).x, 16);
 }
 
-TEST(TouchDown, RefusesWhatBreaksOrMerges) {
-  const std::vector<RegionPart> box = {floor_of_40, wall({40, 0}, {40, 40})};
-  const auto refused = [&](const std::vector<Vec2>& fill) {
-    const Region region{box, fill};
-    EXPECT_THROW(laid_down(fill_of(region), region, 0, one), NotConvergedError);
-  };
-  refused({{2, 0}, {12, 0}, {12, 9}, {25, 12}, {28, -0.1}, {30, 12}, {2, 20}});  // a jet far from the contact
-  refused({{2, 0}, {30, 0}, {30, 4}, {20, -0.1}, {12, 4}, {2, 5}});  // a gap down to the wet floor
+const std::vector<RegionPart> box_of_40 = {floor_of_40, wall({40, 0}, {40, 40})};
+
+TEST(TouchDown, RefusesToCloseMuchAir) {
+  const Region region{box_of_40, {{2, 0}, {12, 0}, {12, 9}, {25, 12}, {28, -0.1}, {30, 12}, {2, 20}}};
+  EXPECT_THROW(laid_down(fill_of(region), region, 0, one), NotConvergedError);  // a jet far from the contact
 }
 
-TEST(TouchDown, ClosesASharpNotch) {
+double area_of(const LaidDown& laid) {
+  double sum = 0;
+  for (const Outline& outline : laid.outlines) {
+    EXPECT_FALSE(crossing_of(outline));
+    sum += area(outline);
+  }
+  return sum;
+}
+
+TEST(TouchDown, BreaksWhereTheSurfaceComesToTheWetFloor) {
+  const Region region{box_of_40, {{2, 0}, {30, 0}, {30, 4}, {20, -0.1}, {12, 4}, {2, 5}}};
+  const Outline before = fill_of(region);
+  const LaidDown laid = laid_down(before, region, 0, one);
+  EXPECT_EQ(laid.outlines.size(), 2u);
+  EXPECT_NEAR(area_of(laid), area(before), 0.05);
+  EXPECT_EQ(laid.passed, 0);
+}
+
+// A funnel, its bottom a tenth above the slot or just beyond it; what lies between has passed.
+TEST(TouchDown, BreaksWhereTheSurfaceComesToAnOpening) {
+  const std::vector<RegionPart> parts = {wall({0, 0}, {15, 0}), wall({25, 0}, {40, 0}),
+                                         opening({15, 0}, {25, 0}), wall({0, 0}, {0, 20}),
+                                         wall({40, 0}, {40, 20})};
+  for (const double height : {0.1, -0.05}) {
+    const Region region{parts, {{0, 0}, {40, 0}, {40, 12}, {21, 2}, {20.2, height}, {19, 2}, {0, 12}}};
+    const Outline before = fill_of(region);
+    const LaidDown laid = laid_down(before, region, 0, one);
+    ASSERT_EQ(laid.outlines.size(), 2u);
+    EXPECT_NEAR(area_of(laid) + laid.passed, area(before), 1e-12);
+    EXPECT_LT(std::abs(laid.passed), 0.3);
+    for (const Outline& outline : laid.outlines) {
+      const Outline fine = with_area(resampled(outline, region, 0, one), region, 0, area(outline));
+      EXPECT_GT(quality(mesh_of(fine, one)), 0.1);
+      EXPECT_EQ(std::ranges::count(outline.part, 2), 1);
+    }
+    EXPECT_EQ(outlines_of(mesh_of(laid.outlines, one)).size(), 2u);
+  }
+}
+
+// A tongue that has come down into the surface before it, with a little air.
+TEST(TouchDown, ClosesTheAirUnderASurfaceThatFoldsOntoItself) {
+  const Region region{
+      box_of_40,
+      {{2, 0}, {40, 0}, {40, 4}, {20, 4}, {19, 5}, {21, 5.5}, {21.5, 3.8}, {22.5, 6.5}, {12, 9}, {2, 9}}};
+  const Outline before = fill_of(region);
+  const LaidDown laid = laid_down(before, region, 0, one);
+  ASSERT_EQ(laid.outlines.size(), 1u);
+  EXPECT_NEAR(area_of(laid), area(before), 3);
+  EXPECT_GT(area_of(laid), area(before));
+}
+
+TEST(TouchDown, ClosesASharpNotchAndCutsOffASharpTip) {
   const Region floor{{wall({-1, 0}, {21, 0}), wall({0, -1}, {0, 20}), wall({20, -1}, {20, 20})}, {}};
-  Outline outline{{{0, 0}, {20, 0}, {20, 10}, {11, 10}, {10, 5}, {9, 10}, {0, 10}},
+  Outline outline{{{0, 0}, {20, 0}, {20, 10}, {10.5, 10}, {10, 5}, {9.5, 10}, {0, 10}},
                   {0, 2, -1, -1, -1, -1, 1}};
-  const Outline closed = laid_down(outline, floor, 0, one).outline;
-  EXPECT_EQ(closed.points.size(), 6u);  // 22.6 degrees
-  EXPECT_NEAR(area(closed), 200, 1e-12);
-  outline.points[4] = {10, 8};  // 53 degrees
-  EXPECT_EQ(laid_down(outline, floor, 0, one).outline.points.size(), 7u);
+  const auto points_at = [&](double z) {
+    outline.points[4] = {10, z};
+    return laid_down(outline, floor, 0, one).outlines.front().points.size();
+  };
+  EXPECT_EQ(points_at(7.5), 6u);    // 22.6 degrees
+  EXPECT_EQ(points_at(9), 7u);      // 53 degrees
+  EXPECT_EQ(points_at(11), 6u);     // a tip of 53 degrees
+  EXPECT_EQ(points_at(10.75), 7u);  // of 67 degrees
+  EXPECT_EQ(points_at(12.2), 7u);   // one of more than a cell
 }
 
 }  // namespace
