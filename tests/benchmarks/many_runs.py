@@ -2,9 +2,9 @@
 
 usage: TMPDIR=/dev/shm python3 tests/benchmarks/many_runs.py BUILD RECORD.json   (in memory: disks have moods)
 
-Twenty discs fall into a box, in 300 steps, a thousand runs, and in 3000, two hundred. Blocks of 50 runs, one at a time, each with another seed: alone, by `drumlin run` from an empty program;
-then the same words by run_all and by sweep without its page. Processor time is that of all processes. What one renewal of the page takes, with all runs in
-it, is told apart: the page takes at most report.SHARE of the time, and one renewal at the end.
+Twenty discs fall into a box, in 300 steps, a thousand runs, and in 3000, two hundred. Blocks of 50 runs, one at a time, each with another seed: alone, by
+`drumlin run`; then the same words by run_all and by sweep without its page. Processor time is that of all processes. What one renewal of the page takes,
+with all runs in it, is listed apart: the page takes at most report.SHARE of the time, and one renewal at the end.
 """
 
 import functools
@@ -67,7 +67,7 @@ def measured(drumlin, steps, runs, folder):
             spent[name] = [before + more for before, more in zip(spent[name], taken)]
     report = Report(folder, "A box of discs", False, [{"seed": seed} for seed in range(runs)])
     for number in range(runs):
-        report.ended(number, drumlin.Outcome({"cpu_seconds": 0.03}))
+        report.ended(number, drumlin.Outcome({"cpu_seconds": drumlin.study.Scalar(0.03)}))
     renewal = timed(lambda: report.renew("finished"))
     return {"steps": steps, "runs": runs, "ms_per_run_cpu": 1e3 * spent["alone"][0] / runs,
             **{f"{name}_{what}_above_sum": spent[name][k] / spent["alone"][k] - 1 for name in ("run_all", "sweep") for k, what in enumerate(("cpu", "wall"))},

@@ -135,11 +135,21 @@ def test_the_report_holds_every_run_and_pools_seeds(box, tmp_path, monkeypatch):
     assert drawn[:3] == ["pages/write_page.py", "figures/sweep_figures.py", "pages/write_page.py"] and len(drawn) >= 5
 
 
+def no_number(folder):
+    return {"title": folder["run.json"]["title"]}
+
+
+def test_what_is_no_number_is_an_error_of_its_run(box, tmp_path):
+    box["stages"][0]["duration_s"] = 0.01
+    run, = drumlin.sweep(box, [{}], tmp_path / "SWEEP", numbers=no_number, report=False)
+    assert isinstance(run.error, ValueError) and "could not convert" in str(run.error)
+
+
 def test_the_page_shows_numbers_failures_and_what_still_runs(box, tmp_path):
     from drumlin.sweeping.report import Report
 
     report = Report(tmp_path, "A <box>", False, [{"friction": 0.1}, {"friction": 0.2}, {"friction": 0.4}])
-    report.ended(0, drumlin.Outcome({"theta_deg": (20.0, 1.0), "H": 3.0}))
+    report.ended(0, drumlin.Outcome({"theta_deg": drumlin.study.Scalar(20.0, 1.0), "H": drumlin.study.Scalar(3.0)}))
     report.ended(1, drumlin.Outcome(error=drumlin.NotConvergedError("step 3 <did not>")))
     assert report.renew("running") == ""
     page = (tmp_path / "index.html").read_text(encoding="utf-8")

@@ -31,8 +31,13 @@ class Outcome(typing.NamedTuple):
 
 
 def has_been_interrupted(call):
-    """Whether the call of run_all with this file (at_work) has been interrupted."""
-    return call is not None and not os.path.exists(call)
+    """Whether the call of run_all with this file (at_work) has been interrupted. A file system that does not answer says nothing."""
+    try:
+        return call is not None and not os.stat(call)
+    except FileNotFoundError:
+        return True
+    except OSError:
+        return False
 
 
 def _is_in_use(error):

@@ -8,17 +8,12 @@ from .. import _drumlin
 from ..commands import draw
 from ..errors import DrumlinError
 from ..figures import whole_file
-from ..study.fits import Scalar, pooled_speeds
+from ..study.fits import pooled_speeds
 
 SHARE = 0.02  # of the time may go into reports
 FIRST_S = 30  # no figure earlier, but at the end
 MOST = 6  # quantities shown unless named
 DRUM = ("theta_deg", "Q", "H", "shear_rate", "lambda", "nu_bulk")  # what says most of a drum
-
-
-def scalar(value):
-    """A study.Scalar of a number, or of a value with its half width."""
-    return value if isinstance(value, Scalar) else Scalar(*value) if isinstance(value, (tuple, list)) else Scalar(value)
 
 
 def _entry(one):
@@ -39,9 +34,9 @@ class Report:
         self.due = self.begin + FIRST_S
 
     def ended(self, number, outcome):
-        """Takes what became of a run, and renews the report if it is time."""
+        """Takes what became of a run, its numbers as study.Scalars, and renews the report if it is time."""
         if outcome.error is None:
-            self.numbers[number] = {name: scalar(value) for name, value in outcome.value.items()}
+            self.numbers[number] = outcome.value
         self.rows[number] |= {"state": "failed", "error": str(outcome.error) or type(outcome.error).__name__} if outcome.error else {"state": "finished"}
         if self.drawn and time.monotonic() > self.due:
             self.renew("running")

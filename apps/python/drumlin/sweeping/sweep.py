@@ -13,6 +13,7 @@ from ..commands import changes_of, measure, run, scene_file, scene_from_here
 from ..errors import DrumlinError
 from ..files import Folder
 from ..scenes import resolved, toml_of
+from ..study.fits import Scalar
 from ..study.runs import scalars_of
 from .executors import AT_WORK, arrived, run_all, workers_of
 from .report import Report
@@ -39,12 +40,16 @@ def numbers_of(folder):
     return scalars_of({name: entry for name, entry in measured.items() if name != "seconds"} | rates | {"cpu_seconds": report["cpu_seconds"]})
 
 
+def _scalar(value):
+    return Scalar(*(None if part is None else float(part) for part in (value if isinstance(value, (tuple, list)) else [value])))
+
+
 def _swept(scene, folder, changes, measured, numbers, options):
     """One run, from its checkpoint if it has one, its measurement unless `measured`, the options, is None, and its numbers."""
     made = run(scene, folder, changes, resume=True, **options)
     if measured is not None:
         measure(folder, resume=True, **measured)
-    return numbers(made)
+    return {name: _scalar(value) for name, value in numbers(made).items()}
 
 
 def settings_of(values):
@@ -111,8 +116,9 @@ def sweep(scene, values, output, executor=None, progress: bool | None = None, me
     Returns a SweptRun for each, in their order, failed ones too; the folders lie in `output`, named by their numbers, from 000 on, beside index.html, a page
     of numbers over settings that is renewed as runs end. A setting that the scene cannot have is refused before anything runs. The same call again goes on
     where one was interrupted: Ctrl-C leaves a checkpoint of each run. executor: as in run_all; all workers see `output` and the scene's files. measured:
-    options of drumlin.measure for each run, {} for the usual; None: not measured. numbers(folder): called in the worker, {name: study.Scalar or number};
-    absent: those of the measurement and rates of outlets. changes: of all runs, as in run. report: with figure and page. options: of drumlin.run.
+    options of drumlin.measure for each run, {} for the usual; None: not measured. numbers(folder): called in the worker, {name: number, or (number, half
+    width of its 99 % interval)}; absent: those of the measurement and rates of outlets. changes: of all runs, as in run. report: with figure and page.
+    options: of drumlin.run.
     """
     work = Sweep(scene, values, output, changes)
     with workers_of(executor) as workers:
