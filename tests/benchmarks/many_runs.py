@@ -1,10 +1,10 @@
-"""What many runs cost above their sum: a thousand tiny runs started one by one, by drumlin.run_all and by drumlin.sweep, in turn.
+"""What many runs cost above their sum: a thousand tiny runs started one by one and by drumlin.sweep, in turn.
 
 usage: TMPDIR=/dev/shm python3 tests/benchmarks/many_runs.py BUILD RECORD.json   (in memory: disks have moods)
 
-Twenty discs fall into a box, in 300 steps, a thousand runs, and in 3000, two hundred. Blocks of 50 runs, one at a time, each with another seed: alone, by
-`drumlin run`; then the same words by run_all and by sweep without its page. Processor time is that of all processes. What one renewal of the page takes,
-with all runs in it, is listed apart: the page takes at most report.SHARE of the time, and one renewal at the end.
+Twenty discs fall into a box, in 300 steps, a thousand runs, and in 3000, a hundred. Blocks of 50 runs, one at a time, each with another seed: alone, by
+`drumlin run`, then by drumlin.sweep without its page. Processor time is that of all processes. What one renewal of the page takes, with all runs in it, is
+listed apart: the page takes at most report.SHARE of the time, and one renewal at the end.
 """
 
 import functools
@@ -19,7 +19,7 @@ import time
 
 from records import machine, write
 
-BLOCK, STEPS = 50, {300: 1000, 3000: 200}  # steps: runs
+BLOCK, STEPS = 50, {300: 1000, 3000: 100}  # steps: runs
 
 
 def box(steps):
@@ -55,8 +55,6 @@ def measured(drumlin, steps, runs, folder):
     scene, program = folder / "scene.toml", drumlin.program()
     scene.write_text(drumlin.toml_of({"format": "drumlin-scene-1"} | box(steps)), encoding="utf-8")
     calls = {"alone": lambda seeds, to: alone(program, scene, seeds, to),
-             "run_all": lambda seeds, to: drumlin.run_all([functools.partial(drumlin.run, scene, to / f"{seed}", {"seed": seed}, resume=True)
-                                                           for seed in seeds], to, "local:1"),
              "sweep": lambda seeds, to: drumlin.sweep(scene, {"seed": list(seeds)}, to, "local:1", report=False)}
     for name, call in calls.items():
         call(range(1, 3), folder / f"{name}-first")  # loads what is loaded once
@@ -70,7 +68,7 @@ def measured(drumlin, steps, runs, folder):
         report.ended(number, drumlin.Outcome({"cpu_seconds": drumlin.study.Scalar(0.03)}))
     renewal = timed(lambda: report.renew("finished"))
     return {"steps": steps, "runs": runs, "ms_per_run_cpu": 1e3 * spent["alone"][0] / runs,
-            **{f"{name}_{what}_above_sum": spent[name][k] / spent["alone"][k] - 1 for name in ("run_all", "sweep") for k, what in enumerate(("cpu", "wall"))},
+            **{f"{what}_above_sum": spent["sweep"][k] / spent["alone"][k] - 1 for k, what in enumerate(("cpu", "wall"))},
             "renewal_cpu_seconds": renewal[0]}
 
 
