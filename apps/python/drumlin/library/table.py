@@ -3,6 +3,7 @@
 import functools
 import math
 import pathlib
+import warnings
 
 import numpy as np
 
@@ -14,6 +15,7 @@ GRAINS = ("friction", "restitution", "spread", "rolling_resistance")
 ALLOWED = {"friction": (0, 100), "restitution": (0, 1), "spread": (0, 1), "rolling_resistance": (0, 100)}
 FITTED = {"mu": "ln", "nu": "", "k": ""}  # quantities with a process of their own; ln: over their logarithm
 NORMAL_99 = 2.5758
+START_LENGTHS = (2, 1, 0.6, 2, 2)  # of the coordinates; half of each is the least
 DRAWS = 16
 KNOTS = 13
 
@@ -48,12 +50,18 @@ class Library:
         return {name: self._process(name) for name in FITTED}
 
     def kernel(self, name):
-        """With the scales that the table's head holds; without them scales to begin a fit with."""
+        """A sum of what friction does over I to all grains and what each of the rest adds; with the scales that the table's head holds, else some to begin
+        a fit with."""
         from sklearn.gaussian_process import kernels
+
+        def part(amplitude, *seen):
+            lengths, bounds = np.full(5, 1e5), [(9e4, 1.1e5)] * 5  # a length that tells nothing apart
+            for coordinate in seen:
+                lengths[coordinate], bounds[coordinate] = START_LENGTHS[coordinate], (0.5 * START_LENGTHS[coordinate], 30)
+            return kernels.ConstantKernel(amplitude, (1e-8, 1e2)) * kernels.RBF(lengths, bounds)
+        kernel = part(0.1, 0, 4) + part(0.01, 0, 1, 4) + part(0.01, 0, 2, 4) + part(0.01, 0, 3, 4) + kernels.WhiteKernel(1e-5, (1e-12, 1e-2))
         scales = self.header.get("process_" + name)
-        amplitude, noise, *lengths = map(float, scales.split()) if scales else (0.2, 1e-4, 2, 1, 0.5, 2, 3)
-        return (kernels.ConstantKernel(amplitude, (1e-6, 1e3)) * kernels.RBF(lengths, (0.1, 30))
-                + kernels.WhiteKernel(noise, (1e-9, 1e-2)))
+        return kernel.clone_with_theta(np.log([float(scale) for scale in scales.split()])) if scales else kernel
 
     def _process(self, name, fit=False):
         try:
@@ -73,9 +81,9 @@ class Library:
         return coordinates(self.columns, self.columns["I"])
 
     def fitted_scales(self, name):
-        """Amplitude, noise and lengths that make the table most likely."""
-        found = self._process(name, fit=True).kernel_
-        return [found.k1.k1.constant_value, found.k2.noise_level, *found.k1.k2.length_scale]
+        """Those of the kernel that make the table most likely."""
+        with warnings.catch_warnings(action="ignore"):  # of scales at their bounds
+            return np.exp(self._process(name, fit=True).kernel_.theta)
 
     def normal(self, name, grains, I):  # noqa: E741
         """Mean and covariance of a quantity (of its logarithm, for mu) at I, the scatter of a point beside the process left out."""
