@@ -10,6 +10,7 @@ import drumlin
 import pytest
 from drumlin.sweeping import executors
 from drumlin.sweeping.executors import workers_of
+from drumlin.sweeping.report import Report
 from drumlin.sweeping.sweep import settings_of
 
 # --- jobs: module-level functions, which pickle can write
@@ -58,6 +59,26 @@ def test_a_broken_pool_is_made_anew_once(tmp_path):
 def test_an_executor_that_there_is_not_is_refused(tmp_path, text):
     with pytest.raises(drumlin.InputError, match=f"executor: '{text}' is none .allowed: local"):
         drumlin.run_all([functools.partial(square, 1)], tmp_path, text)
+
+
+class Counting(concurrent.futures.ThreadPoolExecutor):
+    submitted = 0
+
+    def submit(self, *words):  # pylint: disable=arguments-differ
+        self.submitted += 1
+        return super().submit(*words)
+
+
+def test_a_thousand_jobs_are_submitted_once_each_and_reported_seldom(tmp_path, monkeypatch):
+    drawn = []
+    monkeypatch.setattr("drumlin.sweeping.report.draw", lambda script, *words: drawn.append(script))
+    monkeypatch.setattr("drumlin.sweeping.report.FIRST_S", 1e9)
+    report = Report(tmp_path, "", False, [{"seed": n} for n in range(1000)])
+    with Counting(2) as pool:
+        outcomes = drumlin.run_all([functools.partial(dict, n=drumlin.study.Scalar(n)) for n in range(1000)], tmp_path, pool, ended=report.ended)
+    report.renew("finished")
+    assert pool.submitted == 1000 and [outcome.value["n"].value for outcome in outcomes] == list(range(1000))
+    assert len(drawn) == 3  # the page at the beginning; figure and page at the end
 
 
 def test_no_jobs_are_no_work(tmp_path):
@@ -146,8 +167,6 @@ def test_what_is_no_number_is_an_error_of_its_run(box, tmp_path):
 
 
 def test_the_page_shows_numbers_failures_and_what_still_runs(box, tmp_path):
-    from drumlin.sweeping.report import Report
-
     report = Report(tmp_path, "A <box>", False, [{"friction": 0.1}, {"friction": 0.2}, {"friction": 0.4}])
     report.ended(0, drumlin.Outcome({"theta_deg": drumlin.study.Scalar(20.0, 1.0), "H": drumlin.study.Scalar(3.0)}))
     report.ended(1, drumlin.Outcome(error=drumlin.NotConvergedError("step 3 <did not>")))
