@@ -50,9 +50,9 @@ def test_ctrl_c_ends_all_runs_of_a_sweep_and_the_same_call_goes_on(box, tmp_path
                                   {"effects.friction.grain_grain": [0.1, 0.2, 0.3]}, tmp_path / "SWEEP", executor(), report=False)
 
     interrupt_when(*(run / "log.csv" for run in runs[:2]))
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(KeyboardInterrupt) as kept:  # with its traceback, as in a notebook
         sweep()
-    assert [drumlin.read(run)["run.json"]["status"] for run in runs[:2]] == ["interrupted"] * 2 and not runs[2].exists()
+    assert kept and [drumlin.read(run)["run.json"]["status"] for run in runs[:2]] == ["interrupted"] * 2 and not runs[2].exists()
     assert [run.folder["run.json"]["status"] for run in sweep()] == ["finished"] * 3
 
 

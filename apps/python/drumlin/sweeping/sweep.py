@@ -88,16 +88,18 @@ class Sweep:
         """(all runs, what failed of the report's figure and page, an empty text if nothing)."""
         described = tomllib.loads(self.resolved)
         report = Report(self.output, described.get("title", ""), described.get("reduced", False), self.settings, quantities, report)
-        jobs = [functools.partial(_swept, self.scene, folder.path, *each) for folder, each in
-                zip(self.folders, ((changes, measured, numbers or numbers_of, options) for changes in self.changes))]
+        jobs = [functools.partial(_swept, self.scene, folder.path, changes, measured, numbers or numbers_of, options)
+                for folder, changes in zip(self.folders, self.changes)]
         try:
             outcomes = run_all(jobs, self.output, executor, progress, report.ended)
+            failed, runs = report.renew("finished"), [self._run(number, outcome) for number, outcome in enumerate(outcomes)]
+            if not any(run.error for run in runs):  # else the next call tries them again
+                self.claimed.finish()
         except BaseException:
             report.renew("interrupted")
             raise
-        failed, runs = report.renew("finished"), [self._run(number, outcome) for number, outcome in enumerate(outcomes)]
-        if not any(run.error for run in runs):  # else the next call tries them again
-            self.claimed.finish()
+        finally:
+            self.claimed = None  # to others, also while somebody looks at the traceback
         return runs, failed
 
     def _run(self, number, outcome):
