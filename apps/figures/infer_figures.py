@@ -1,4 +1,5 @@
-"""Figures of an answer: corner.png, samples of all pairs of unknowns over their ranges, and data.png, what was measured beside what is expected.
+"""Figures of an answer: corner.png, samples of all pairs of unknowns over their ranges, data.png, what was measured beside what is
+expected, and law.png, the law of such grains, where the library has it.
 
 usage: infer_figures.py FOLDER
 """
@@ -25,7 +26,7 @@ def title_of(name, one):
     """A sentence over the panel of an unknown."""
     width = one["width_over_prior"]
     text = f"{one['median']:.3g} ({one['low']:.3g} to {one['high']:.3g})" if width <= 0.8 else "not determined"
-    return f"{label(name)}: {text}\n{width:.0%} of the prior's width"
+    return f"{label(name)}: {text}\n{max(width, 0.01):.0%} of the prior's width"
 
 
 def draw_corner(content, columns):
@@ -80,6 +81,15 @@ def draw_data(content):
     return figure
 
 
+def draw_law(law):
+    figure, axes = plt.subplots(figsize=(5.2, 3.6))
+    axes.fill_between(law["I"], law["low"], law["high"], color=style.PARTICLES, alpha=0.3, linewidth=0, label="90 %")
+    axes.plot(law["I"], law["mu"], color=style.PARTICLES)
+    axes.set(xscale="log", xlabel="I", ylabel=style.axis_label("mu"))
+    axes.legend()
+    return figure
+
+
 def main(folder):
     folder = pathlib.Path(folder)
     style.use_style()
@@ -87,6 +97,8 @@ def main(folder):
     _, _, columns = result_files.read_table(folder / "samples.csv", "drumlin-samples-1")
     style.save(draw_corner(content, columns), folder / "corner.png", content["reduced"])
     style.save(draw_data(content), folder / "data.png", content["reduced"])
+    if content["law"] is not None:
+        style.save(draw_law(content["law"]), folder / "law.png", content["reduced"])
 
 
 if __name__ == "__main__":

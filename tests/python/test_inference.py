@@ -257,3 +257,19 @@ def test_what_is_wrong_in_a_question_is_named(tmp_path, wrong, by, said):
     with pytest.raises(InputError) as error:
         question.read_question(file)
     assert said in str(error.value) and str(file) in str(error.value)
+
+
+def test_mu_at_given_inertial_number_is_that_of_the_library(tmp_path):
+    (tmp_path / "question.toml").write_text("""format = "drumlin-question-1"
+unknowns = { friction = [0.05, 0.6] }
+[[scenes]]
+library = { spread = 0.2 }
+measured = [{ quantity = "mu", I = [0.0113, 0.09], value = [0.28, 0.378], interval = [0.01, 0.01] }]
+""", encoding="utf-8")
+    read = question.read_question(tmp_path / "question.toml")
+    samples, content = command.inferred(read, command.designs_of(read, tmp_path))
+    # The library's own numbers at 0.4; 0.256 and 0.344 at 0.2.
+    assert content["unknowns"]["friction"]["low"] > 0.2 and content["unknowns"]["friction"]["low"] < 0.4 < content["unknowns"]["friction"]["high"]
+    law = content["law"]
+    assert np.interp(0.09, law["I"], law["mu"]) == pytest.approx(0.378, abs=0.02) and samples.shape[1] == 1
+    assert [row["name"] for row in content["data"]] == ["mu(I=0.0113)", "mu(I=0.09)"]

@@ -47,7 +47,7 @@ def data_rows(of, samples, scenes):
                      "spread": process.inflation * process.spread / np.sqrt(datum.realisations)}
             rows.append({"scene": scene.name, "name": name.removeprefix(f"{scene.name}: "), "value": float(datum.values[k]), "expected": float(mean[k]),
                          "expected_sd": float(sd[k]), "off": float((datum.values[k] - mean[k]) / sd[k]),
-                         "sd": {part: float(value) for part, value in parts.items()}, "left_out_rms": float(np.sqrt(np.nanmean(process.rest**2)))})
+                         "sd": {part: float(value) for part, value in parts.items()}, "left_out_rms": float(np.sqrt(np.nanmean(process.rest**2))) if len(process.rest) else None})
     return rows
 
 
@@ -59,7 +59,7 @@ def _determined(content):
         if width > HARDLY:
             words.append(f"{name}: not determined by these data: the interval is {width:.0%} of the prior's, {one['low']:.3g} to {one['high']:.3g}")
         else:
-            words.append(f"{text}, {'determined' if width < DETERMINED else 'hardly determined'}: {width:.0%} of the width of the prior")
+            words.append(f"{text}, {'determined' if width < DETERMINED else 'hardly determined'}: {max(width, 0.01):.0%} of the width of the prior")
         for end, value in (("low", one["range"][0]), ("high", one["range"][1])):
             if width <= HARDLY and one[f"at_{end}_end"] > AT_THE_EDGE:
                 words.append(f"{name}: lies at the {end} end of its range, {value:g}: what lies beyond may fit as well")
@@ -113,13 +113,22 @@ def words(content):
     if len(content["unknowns"]) > 1:
         best, least = content["directions"][0], content["directions"][-1]
         found.append(f"best determined: {combination(best)}, to {best['sd']:.0%} of the prior; least: {combination(least)}, to {least['sd']:.0%}")
-    return found + _more_runs(content)
+    return found + _law(content) + _more_runs(content)
 
 
-def answer(of, samples, scenes):
+def _law(content):
+    law = content["law"]
+    if law is None:
+        return []
+    at = [int(np.abs(np.log(np.array(law["I"]) / I)).argmin()) for I in (0.01, 0.1)]
+    text = ", ".join(f"{law['mu'][k]:.3f} ({law['low'][k]:.3f} to {law['high'][k]:.3f}) at I = {law['I'][k]:.2g}" for k in at)
+    return [f"law of such grains: mu = {text}"]
+
+
+def answer(of, samples, scenes, law=None):
     """The numbers and words of infer.json."""
     fit = of.misfit(samples)
     content = {"unknowns": unknowns(of, samples), "correlations": np.corrcoef(samples.T).reshape(len(of.names), -1).tolist(),
                "directions": directions(of, samples), "data": data_rows(of, samples, scenes),
-               "misfit": fit | {"is_misfit": bool(fit["share"] < posterior.MISFIT and fit["data"] > len(of.names))}, "samples": len(samples)}
+               "misfit": fit | {"is_misfit": bool(fit["share"] < posterior.MISFIT and fit["data"] > len(of.names))}, "law": law, "samples": len(samples)}
     return content | {"words": words(content)}

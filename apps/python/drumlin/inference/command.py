@@ -14,11 +14,11 @@ from drumlin import _drumlin
 from drumlin.commands import draw
 from drumlin.errors import NotConvergedError
 from drumlin.figures import whole_file
-from drumlin.inference import answer, design, emulator, posterior, question, tables
+from drumlin.inference import answer, design, emulator, laws, posterior, question, tables
 
 
 class Table:
-    """Runs that others made, or another model: rows of a table (docs/formats/infer.md)."""
+    """Runs that others made, or another model, as rows of a table (docs/formats/infer.md); or the library of laws."""
 
     runs, quantities, reduced = (), (), False
 
@@ -30,11 +30,13 @@ class Table:
 
     def emulator(self, of_unit):
         """(Emulator, rows that count)"""
+        if self.scene.kind == "library":
+            return laws.LibraryEmulator(self.scene, self.asked.ranges()), laws.points()
         points, values, errors = tables.read(self.scene, self.asked.ranges())
         return emulator.Emulator(of_unit(points), values, errors, self.scene.names()), len(points)
 
     def used(self, count):
-        return {"table": self.scene.scene, "runs": count}
+        return {self.scene.kind: self.scene.scene, "runs": count}
 
 
 class Design:
@@ -78,7 +80,7 @@ class Design:
 
 
 def designs_of(asked, store):
-    return [Table(asked, scene) if scene.is_table else Design(asked, scene, store) for scene in asked.scenes]
+    return [Design(asked, scene, store) if scene.kind == "scene" else Table(asked, scene) for scene in asked.scenes]
 
 
 def make(designs, folder, executor, say, progress=None, price_only=False):
@@ -109,7 +111,8 @@ def inferred(asked, designs):
         of.data.append(posterior.Datum(emulated, values, errors, each.scene.realisations))
         used.append({"scene": each.scene.name} | each.used(count))
     samples, _ = of.sample()
-    return samples, {"format": "drumlin-infer-1", "reduced": any(each.reduced for each in designs), "title": asked.title, "equal": asked.equal} | answer.answer(of, samples, asked.scenes) | {"designs": used}
+    content = answer.answer(of, samples, asked.scenes, laws.law_of(asked, [each.family for each in designs if isinstance(each, Design)], samples))
+    return samples, {"format": "drumlin-infer-1", "reduced": any(each.reduced for each in designs), "title": asked.title, "equal": asked.equal} | content | {"designs": used}
 
 
 def samples_text(names, samples):
@@ -118,7 +121,7 @@ def samples_text(names, samples):
 
 
 def write(folder, names, samples, content):
-    """infer.json, samples.csv, corner.png and data.png."""
+    """infer.json, samples.csv and figures."""
     whole_file.write_text(folder / "samples.csv", samples_text(names, samples))
     whole_file.write_text(folder / "infer.json", json.dumps(content, indent=2, ensure_ascii=False) + "\n")
     draw("figures/infer_figures.py", folder)
@@ -143,7 +146,7 @@ def main(words):
     make(designs, store, given["executor"], say)
     samples, content = inferred(asked, designs)
     write(output, list(asked.priors), samples, content | {"provenance": _drumlin.provenance()})
-    for name in FILES:
+    for name in [name for name in FILES if (output / name).exists()]:
         growing.list(name)
     growing.finish()
     for line in content["words"]:
@@ -151,7 +154,7 @@ def main(words):
     say(f"results: {output / 'infer.json'}, {output / 'corner.png'}")
 
 
-FILES = ["infer.json", "samples.csv", "corner.png", "data.png"]
+FILES = ["infer.json", "samples.csv", "corner.png", "data.png", "law.png"]
 
 if __name__ == "__main__":
     main(*sys.argv[1:])

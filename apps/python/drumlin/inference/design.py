@@ -22,6 +22,9 @@ KEYS = {"friction": ("effects.friction.grain_grain",), "wall_friction": ("effect
         "restitution": ("effects.restitution.grain_grain", "effects.restitution.grain_wall")}
 
 
+SIZES = ("grains.generated.diameter_min_mm", "grains.generated.diameter_max_mm")
+
+
 def keys_of(unknown):
     """Keys of a scene that an unknown sets: its own, or itself where it is such a key."""
     return KEYS.get(unknown, (unknown,))
@@ -47,6 +50,7 @@ class Family:
     unknowns: dict  # name: (low, high), or the name of another unknown that it equals
     folder: pathlib.Path
     given: dict
+    sizes: tuple = ()  # least and greatest diameter of grains spread evenly, mm
     reduced: bool = False  # marked so
 
     def values(self, folder):
@@ -67,6 +71,14 @@ class Family:
                 return None
         return np.array([found[name] for name, prior in self.unknowns.items() if not isinstance(prior, str)])
 
+    def grains(self):
+        """What the scene says of its grains, as the library of laws names it; the sizes as a spread about their mean, where they are spread evenly."""
+        found = {"friction": self.given[KEYS["friction"][0]], "restitution": self.given[KEYS["restitution"][0]] or 0.0,
+                 "rolling_resistance": self.given[KEYS["rolling_resistance"][0]] or 0.0}
+        if self.sizes:
+            found["spread"] = (self.sizes[1] - self.sizes[0]) / (self.sizes[1] + self.sizes[0])
+        return {name: value for name, value in found.items() if value is not None}
+
     def changes(self, point, seed):
         """What a run at this point sets in the scene."""
         free = dict(zip((name for name, prior in self.unknowns.items() if not isinstance(prior, str)), point))
@@ -85,7 +97,8 @@ def family(scene, settings, unknowns, store):
     known = [key for name in {*KEYS, *unknowns} for key in keys_of(name)]
     same = {key: value for key, value in content.items() if key not in known and key not in ("title", "seed")}
     name = hashlib.sha256(json.dumps(same, sort_keys=True).encode()).hexdigest()[:12]
-    return Family(str(scene), dict(settings), unknowns, pathlib.Path(store) / name, {key: content.get(key) for key in known}, content.get("reduced") is True)
+    return Family(str(scene), dict(settings), unknowns, pathlib.Path(store) / name, {key: content.get(key) for key in known},
+                  tuple(content[key] for key in SIZES if key in content), content.get("reduced") is True)
 
 
 @dataclasses.dataclass

@@ -8,9 +8,10 @@ import numpy as np
 import scipy.stats
 
 from ..study.runs import read_toml, refused
-from . import design, observables
+from . import design, laws, observables
 
 FORMAT = "drumlin-question-1"
+KINDS = ("scene", "table", "library")
 
 
 @dataclasses.dataclass
@@ -38,7 +39,7 @@ class Prior:
 
 @dataclasses.dataclass
 class Measured:
-    """A measured quantity of a scene: one number, or one for each z of a profile; `sd`: their standard errors."""
+    """A measured quantity of a scene: one number, or one for each z of a profile or each I of a law; `sd`: their standard errors."""
 
     quantity: str
     z: tuple | None
@@ -47,12 +48,13 @@ class Measured:
 
     @property
     def names(self):
-        return [self.quantity] if self.z is None else [f"{self.quantity}(z={z:g})" for z in self.z]
+        return [self.quantity] if self.z is None else [f"{self.quantity}({'I' if self.quantity == 'mu' else 'z'}={z:g})" for z in self.z]
 
 
 @dataclasses.dataclass
 class Scene:
-    """What was measured, and by what: a scene of grains with settings, or the rows of a table of runs in which its columns have the settings.
+    """What was measured, and by what (`kind`): a scene of grains with settings, the rows of a table of runs in which its columns have the settings, or the
+    library of laws, for grains with the settings.
     `realisations`: of how many repetitions the measured numbers are the mean, for the chance that no interval of one run knows."""
 
     name: str
@@ -60,7 +62,7 @@ class Scene:
     settings: dict
     realisations: int
     measured: list
-    is_table: bool = False
+    kind: str = "scene"
 
     def names(self):
         return [f"{self.name}: {name}" for one in self.measured for name in one.names]
@@ -145,8 +147,8 @@ def _unknowns(reader, table):
 
 
 def _measured(reader, table, key):
-    table = reader.known(table, key, ("quantity", "z", "value", "interval", "confidence", "source"))
-    z = table.get("z")
+    table = reader.known(table, key, ("quantity", "z", "I", "value", "interval", "confidence", "source"))
+    z = table.get("z", table.get("I"))
     depths = None if z is None else tuple(reader.number(one, f"{key}.z") for one in (z if isinstance(z, list) else [z]))
     count = 1 if depths is None else len(depths)
     share = reader.number(table.get("confidence", 0.99), f"{key}.confidence", 0.01, 0.9999)
@@ -164,10 +166,13 @@ def _measured(reader, table, key):
 
 
 def _scene(reader, table, key):
-    table = reader.known(table, key, ("name", "scene", "table", "settings", "realisations", "measured"))
-    scene = table.get("scene", table.get("table"))
-    if not isinstance(scene, str) or {"scene", "table"} <= set(table):
-        reader.fault(f"{key}.scene", "is missing" if scene is None else "is none", "one of scene (a file, or the name of a shipped scene) and table (a file)")
+    table = reader.known(table, key, ("name", *KINDS, "settings", "realisations", "measured"))
+    kinds = [kind for kind in KINDS if kind in table]
+    scene = table[kinds[0]] if len(kinds) == 1 else None
+    if kinds == ["library"]:
+        scene, table = "library", table | {"settings": reader.known(scene, f"{key}.library", laws.GRAINS)}
+    if not isinstance(scene, str):
+        reader.fault(f"{key}.scene", "is missing or one of two", "one of scene (a file, or the name of a shipped scene), table (a file) and library (a table)")
         scene = ""
     beside = reader.file.parent / scene
     measured = [_measured(reader, one, f"{key}.measured.{number}") for number, one in enumerate(table.get("measured", []))]
@@ -175,7 +180,7 @@ def _scene(reader, table, key):
         reader.fault(f"{key}.measured", "is empty", "one or more measured quantities")
     repeats = reader.number(table.get("realisations", 1), f"{key}.realisations", 1)
     return Scene(str(table.get("name", pathlib.Path(scene).stem)), str(beside if beside.is_file() else scene), table.get("settings", {}),
-                 int(repeats) if repeats == repeats else 1, measured, "table" in table)
+                 int(repeats) if repeats == repeats else 1, measured, kinds[0] if kinds else "scene")
 
 
 def read_question(path):
