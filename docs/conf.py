@@ -81,9 +81,11 @@ def python():
         raise SystemExit(f"docs/conf.py: in no group of PYTHON: {missing}")
     page = "# The Python package\n\n[Notebooks and examples](cookbook/python.md). Each name is one of `drumlin`.\n"
     for group, names in PYTHON.items():
-        page += f"\n## {group}\n\n```{{eval-rst}}\n" + "".join(
-            f".. auto{'class' if inspect.isclass(getattr(drumlin, name)) and group != 'Errors' else 'exception' if group == 'Errors' else 'function'}:: drumlin.{name}\n"
-            f"   :members:\n\n" for name in names) + "```\n"
+        page += f"\n## {group}\n\n```{{eval-rst}}\n"
+        for name in names:
+            kind = "exception" if group == "Errors" else "class" if inspect.isclass(getattr(drumlin, name)) else "function"
+            page += f".. auto{kind}:: drumlin.{name}\n" + ("   :members:\n" if kind == "class" else "") + "\n"
+        page += "```\n"
     return page + "\n## Draw on axes of your own\n\n```{eval-rst}\n.. automodule:: drumlin.plot\n   :members:\n   :exclude-members: show, Picture\n```\n"
 
 

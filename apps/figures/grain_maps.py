@@ -238,10 +238,9 @@ class View:
 
 
 def arrow_of(axes, gravity):
-    """The direction of gravity, to the right of the picture's lower corner; `gravity` has length 1."""
-    begin, points = np.array([34.0, 30.0]), 40.0
-    return axes.annotate("", begin + points * gravity, begin, xycoords=("axes points"), textcoords="axes points", annotation_clip=False,
-                         arrowprops={"arrowstyle": "-|>", "color": WALL, "linewidth": 2, "mutation_scale": 16})
+    """The direction of gravity, beside the picture's lower right corner; `gravity` has length 1."""
+    return axes.annotate("$g$", (1.07, 0.0), xytext=-44 * gravity, xycoords="axes fraction", textcoords="offset points", annotation_clip=False, ha="center",
+                         va="center", fontsize=14, arrowprops={"arrowstyle": "-|>", "color": WALL, "linewidth": 2, "mutation_scale": 16})
 
 
 def images(low, high, period):

@@ -20,3 +20,9 @@ def test_every_public_name_says_what_it_is(name):
 def test_arrays_tell_shape_and_unit():
     for name in ("x", "z", "v_x", "v_z", "spin", "radius", "mass"):
         assert "(grains,)" in NAMES["Simulation." + name].__doc__ and any(unit in NAMES["Simulation." + name].__doc__ for unit in (" d.", "sqrt(g", "rho0"))
+
+
+@pytest.mark.parametrize("name", [name for name in drumlin.__all__ if callable(getattr(drumlin, name)) and name != "version"
+                                  and not (inspect.isclass(getattr(drumlin, name)) and issubclass(getattr(drumlin, name), Exception))])
+def test_every_public_function_and_class_has_an_example(name):
+    assert ">>> " in inspect.getdoc(getattr(drumlin, name))
