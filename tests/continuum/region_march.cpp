@@ -208,6 +208,19 @@ TEST(RegionFlow, FollowsAGateThatLeaves) {
 
 TEST(RegionFlow, OfASlotNarrowerThanThreeCells) { ended(silo(4, 3, 2)); }
 
+// The surface comes down to the slot, and two heaps are left that stand for themselves.
+TEST(RegionFlow, OfASiloThatBreaksInTwo) {
+  RegionMarch march = silo(8, 2, 5);
+  march.region.fill = box(20, 5);
+  march.step = 0.2;
+  const Flow flow = ended(march);
+  const std::vector<Outline> heaps = outlines_of(flow.state.mesh);
+  ASSERT_EQ(heaps.size(), 2u);
+  EXPECT_NEAR(area(heaps[0]) / area(heaps[1]), 1, 0.05);
+  EXPECT_NEAR(area(heaps[0]) + area(heaps[1]), flow.state.area, 0.1);
+  EXPECT_NEAR(flow.state.area + flow.state.discharged, 100, 1e-9);
+}
+
 // At mu_s = 1 the corner of the column pulls: it takes a larger p_min than others, and stands.
 TEST(RegionFlow, WithoutFrictionAndWithMuch) {
   EXPECT_GT(ended(column(16, 8, 2, 4, JopLaw{.mu_s = 0, .mu_2 = 0.3, .I_0 = 0.4})).front(), 20);
