@@ -8,6 +8,7 @@ import pytest
 import scipy.stats
 from conftest import SOURCES
 
+import drumlin
 from drumlin.errors import InputError
 from drumlin.inference import answer, command, design, emulator, observables, posterior, question
 from drumlin.pair.frames import Frames
@@ -273,3 +274,18 @@ measured = [{ quantity = "mu", I = [0.0113, 0.09], value = [0.28, 0.378], interv
     law = content["law"]
     assert np.interp(0.09, law["I"], law["mu"]) == pytest.approx(0.378, abs=0.02) and samples.shape[1] == 1
     assert [row["name"] for row in content["data"]] == ["mu(I=0.0113)", "mu(I=0.09)"]
+
+
+def test_the_command_answers(tmp_path):
+    write_table(tmp_path)
+    asked_for = {"unknowns": {"friction": [0.05, 0.9]}, "scenes": [
+        {"name": f"{rpm} rpm", "table": str(tmp_path / "runs.csv"), "settings": {"rotation_rpm": rpm},
+         "measured": [{"quantity": "theta_deg", "value": value, "interval": 0.5}]} for rpm, value in ((2, 22.2), (6, 24.6))]}
+    answered = drumlin.infer(asked_for, tmp_path / "INFER")
+    content = answered["infer.json"]
+    # 2 deg too many at one speed: no friction gives both, and the exit code is that of an answer.
+    assert content["misfit"]["is_misfit"] and content["words"][0].startswith("MISFIT")
+    assert {"infer.json", "samples.csv"} < set(answered.files) and all((tmp_path / "INFER" / f"{name}.png").stat().st_size > 5000 for name in ("corner", "data"))
+    assert len(answered["samples.csv"]["friction"]) == content["samples"]
+    with pytest.raises(InputError):
+        drumlin.infer(asked_for, tmp_path / "INFER")

@@ -8,7 +8,7 @@
 import importlib
 
 # The compiled part is loaded by what needs it; __init__.pyi says the same to editors and type checkers.
-_HOMES = {"_drumlin": ["version"], "commands": ["command", "compare", "make_pair", "measure", "program", "run", "score", "solve_flow"],
+_HOMES = {"_drumlin": ["version"], "commands": ["command", "compare", "infer", "make_pair", "measure", "program", "run", "score", "solve_flow"],
           "contacts": ["ContactSolution", "contact_residual", "contact_solvers", "solve_contacts"],
           "errors": ["DrumlinError", "InputError", "Interrupted", "IoError", "Killed", "NotConvergedError"],
           "sweeping.executors": ["Outcome", "run_all"], "files": ["Arrays", "Folder", "read", "value_of"],

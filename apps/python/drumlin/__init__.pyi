@@ -2,6 +2,7 @@
 
 from .commands import command as command
 from .commands import compare as compare
+from .commands import infer as infer
 from .commands import make_pair as make_pair
 from .commands import measure as measure
 from .commands import program as program

@@ -276,6 +276,21 @@ def make_pair(scene, law, output, changes=(), runs=(), seeds: int = 1, at=(), ov
     return read(output)
 
 
+def infer(question, output, designs=None, executor: str = "local", overwrite: bool = False, resume: bool = False, progress: bool | None = None) -> Folder:
+    """`drumlin infer`: the grains behind measured numbers, into a folder with infer.json, samples.csv and figures, which is returned.
+
+    question: a file (docs/formats/infer.md) or a dict of its keys, whose scenes and tables count from the current folder. designs: folder of the runs, kept
+    for other questions; None: beside the output. executor: local, local:N (so many runs at a time) or dask:ADDRESS. progress: as in run.
+    """
+    output = pathlib.Path(output)
+    if isinstance(question, dict):
+        scenes = [one | {kind: os.path.abspath(one[kind]) for kind in ("scene", "table") if kind in one and os.path.isfile(one[kind])}
+                  for one in question.get("scenes", [])]
+        question = _written({"format": "drumlin-question-1"} | question | {"scenes": scenes}, output, "question")
+    _command(_words("infer", question, output=output, designs=designs, executor=executor, overwrite=overwrite, resume=resume), "infer", output, progress)
+    return read(output)
+
+
 def score(fields, limits, output, against=(), overwrite: bool = False, progress: bool | None = None) -> dict:
     """`drumlin score`: errors of a continuum (the folder of a flow, or a file of its profiles, maps or fields) against runs, by limits; the content of
     score.json (docs/formats/score.md). against: measured runs, those of data/bed at that speed unless told. progress: as in run.
