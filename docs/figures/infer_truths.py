@@ -112,7 +112,8 @@ def verdict(limits, rows, pairs):
     joint = np.mean([row["region"] < share for row in rows])
     each = np.mean([abs(quantile - 0.5) < share / 2 for row in rows for quantile in row["quantiles"].values()])
     alarms = np.mean([row["misfit"] < level for row in rows])
-    found = {"joint": (joint, limits["joint_must"][0] <= joint <= limits["joint_must"][1]), "each": (each, limits["each_must"][0] <= each <= limits["each_must"][1]),
+    found = {"joint": (joint, limits["joint_must"][0] <= joint <= limits["joint_must"][1]),
+             "each": (each, limits["each_must"][0] <= each <= limits["each_must"][1]),
              "false_alarm": (alarms, alarms <= limits["false_alarm_must"])}
     if pairs:
         plain, biased = (sum(pair[k] < level for pair in pairs) for k in (0, 1))

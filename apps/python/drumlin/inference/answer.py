@@ -45,9 +45,10 @@ def data_rows(of, samples, scenes):
         for k, (name, process) in enumerate(zip(datum.emulator.names, datum.emulator.processes)):
             parts = {"measurement": datum.errors[k], "emulator": process.inflation * np.sqrt(np.mean(own[:, k] ** 2)),
                      "spread": process.inflation * process.spread / np.sqrt(datum.realisations)}
+            left_out = float(np.sqrt(np.nanmean(process.rest**2))) if len(process.rest) else None
             rows.append({"scene": scene.name, "name": name.removeprefix(f"{scene.name}: "), "value": float(datum.values[k]), "expected": float(mean[k]),
                          "expected_sd": float(sd[k]), "off": float((datum.values[k] - mean[k]) / sd[k]),
-                         "sd": {part: float(value) for part, value in parts.items()}, "left_out_rms": float(np.sqrt(np.nanmean(process.rest**2))) if len(process.rest) else None})
+                         "sd": {part: float(value) for part, value in parts.items()}, "left_out_rms": left_out})
     return rows
 
 
@@ -92,7 +93,8 @@ def _fit(content):
     if fit["data"] <= len(content["unknowns"]):
         return [f"{fit['data']} numbers and {len(content['unknowns'])} unknowns: whether the scenes are the right ones cannot be told"]
     if not fit["is_misfit"]:
-        return [f"the data fit: {fit['share']:.0%} of the data sets that such grains give fit as badly (chi square {fit['chi_square']:.1f} of {fit['data']} numbers)"]
+        return [f"the data fit: {fit['share']:.0%} of the data sets that such grains give fit as badly "
+                f"(chi square {fit['chi_square']:.1f} of {fit['data']} numbers)"]
     words = [f"MISFIT: no grains in these ranges explain the data together: {fit['share']:.1%} of the data sets that they give fit as badly (chi square "
              f"{fit['chi_square']:.1f} of {fit['data']} numbers); the intervals below mean nothing until the cause is found"]
     off = sorted(content["data"], key=lambda row: -abs(row["off"]))

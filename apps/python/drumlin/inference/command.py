@@ -52,7 +52,7 @@ class Design:
         return self.family.reduced
 
     def missing(self):
-        return [run for run in self.runs if run.status() != "finished"]
+        return [run for run in self.runs if run.status() in design.UNFINISHED]
 
     def seconds(self):
         """Processor time of a run: the mean of those that are there; NaN without any."""
@@ -112,7 +112,8 @@ def inferred(asked, designs):
         used.append({"scene": each.scene.name} | each.used(count))
     samples, _ = of.sample()
     content = answer.answer(of, samples, asked.scenes, laws.law_of(asked, [each.family for each in designs if isinstance(each, Design)], samples))
-    return samples, {"format": "drumlin-infer-1", "reduced": any(each.reduced for each in designs), "title": asked.title, "equal": asked.equal} | content | {"designs": used}
+    head = {"format": "drumlin-infer-1", "reduced": any(each.reduced for each in designs), "title": asked.title, "equal": asked.equal}
+    return samples, head | content | {"designs": used}
 
 
 def samples_text(names, samples):

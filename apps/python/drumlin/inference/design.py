@@ -22,6 +22,7 @@ KEYS = {"friction": ("effects.friction.grain_grain",), "wall_friction": ("effect
         "restitution": ("effects.restitution.grain_grain", "effects.restitution.grain_wall")}
 
 
+UNFINISHED = ("", "running", "interrupted")  # what run.json says of a run that goes on; one that failed is no data, and is not tried again
 SIZES = ("grains.generated.diameter_min_mm", "grains.generated.diameter_max_mm")
 
 
@@ -117,12 +118,14 @@ class Planned:
 
     def make(self, quantities=()):
         """Runs it, or goes on, and measures it. Whether it finished: one that does not converge is no data, and others go on."""
-        if self.status() != "finished":
+        if self.status() in UNFINISHED:
             scene = self.folder / "scene.toml"
             try:
                 run(*([scene, self.folder] if scene.exists() else [self.family.scene, self.folder, self.changes]), resume=True)
             except NotConvergedError:
-                return False
+                pass
+        if self.status() != "finished":
+            return False
         observables.measure(self.folder, quantities)
         return True
 
