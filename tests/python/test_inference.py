@@ -54,15 +54,15 @@ def test_what_no_interval_of_a_run_knows_is_found_as_spread(emulated):
 
 def test_regions_of_ninety_per_cent_hold_the_truth(emulated):
     random, inside, each = np.random.default_rng(7), [], []
-    for _ in range(12):
+    for _ in range(8):
         unit, values = one_truth(random)
         of = asked(emulated, values)
         samples, densities = of.sample()
         truth = of.low + unit * (of.high - of.low)
         inside.append(posterior.share_above(densities, of.log_density(truth)[0]) < 0.9)
         each.append(np.abs((samples < truth).mean(axis=0) - 0.5) < 0.45)
-    # Of 12 that hold with 0.9 each 8 to 12 do with 99.6 %, of 36 27 or more with 99.6 %.
-    assert np.sum(inside) >= 8 and np.sum(each) >= 27
+    # Of 8 that hold with 0.9 each 5 or more do with 99.5 %, of 24 17 or more with 99.8 %.
+    assert np.sum(inside) >= 5 and np.sum(each) >= 17
 
 
 def test_biased_data_are_a_misfit_and_others_are_not(emulated):
@@ -94,10 +94,12 @@ def test_a_combination_is_named():
     content = answer.answer(of, of.sample()[0], [types.SimpleNamespace(name="one")])
     assert content["correlations"][0][1] < -0.95 and any("combination of both" in line and "less" in line for line in content["words"])
     assert abs(content["directions"][0]["weights"]["friction"]) == pytest.approx(np.sqrt(0.5), abs=0.05)
-    assert "cannot be told" in content["words"][0]  # one number, two unknowns
+    assert "too few" in content["words"][0]  # one number, two unknowns
 
 
-def test_the_same_question_gives_the_same_samples(emulated):
+def test_the_same_question_gives_the_same_samples(emulated, monkeypatch):
+    monkeypatch.setattr(posterior, "FIRST_STEPS", 30)
+    monkeypatch.setattr(posterior, "LONG_ENOUGH", 0)
     of = asked(emulated, angles(np.array([[0.2, 0.5, 0.5]]))[0])
     assert (of.sample()[0] == of.sample()[0]).all()
 

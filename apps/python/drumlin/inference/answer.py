@@ -91,7 +91,7 @@ def combination(direction):
 def _fit(content):
     fit = content["misfit"]
     if fit["data"] <= len(content["unknowns"]):
-        return [f"{fit['data']} numbers and {len(content['unknowns'])} unknowns: whether the scenes are the right ones cannot be told"]
+        return [f"{fit['data']} numbers and {len(content['unknowns'])} unknowns: too few to say whether the scenes are the right ones"]
     if not fit["is_misfit"]:
         return [f"the data fit: {fit['share']:.0%} of the data sets that such grains give fit as badly "
                 f"(chi square {fit['chi_square']:.1f} of {fit['data']} numbers)"]
