@@ -1,7 +1,9 @@
 """Particles and continuum over the speed of rotation, judged by targets and limits; both commands that start a study."""
 
+import importlib
 import json
 import math
+import pathlib
 
 import drumlin
 import numpy as np
@@ -241,3 +243,15 @@ def test_runs_of_other_settings_are_refused_and_leave_nothing(tmp_path, change, 
 def test_nothing_measured_is_nan_and_null():
     assert study.plain({"a": study.Scalar(math.nan, 0.1), "b": [math.inf, np.float64(2)], "c": study.Scalar(1.0)}) == {
         "a": {"value": None, "ci99": 0.1}, "b": [None, 2.0], "c": 1.0}
+
+
+def test_what_is_met_by_the_noise_alone_is_told_apart(monkeypatch):
+    monkeypatch.syspath_prepend(str(pathlib.Path(drumlin.__file__).parent / "pages"))
+    formats = importlib.import_module("formats")
+    within, noisy, missed = ({"quantity": "H", "limit": 2, "measure": "d", "value": value, "outcome": outcome, "judged_by": judge, "noise_floor": 4}
+                             for value, outcome, judge in ((1, "met", "noise floor"), (3, "met", "noise floor"), (5, "missed", "noise floor")))
+    assert [formats.standing(target) for target in (within, noisy, missed)] == ["met", "near", "missed"]
+    assert formats.verdict_words(noisy) == "met within the noise" and formats.over_limit(noisy) == 0.75
+    speed = {"rotation_rpm": 5, "role": "predicted", "targets": [within, noisy, missed], "verdict": {"met": 2, "missed": 1}}
+    line, = study.verdict_lines([speed])
+    assert "by the noise floor alone: H 3 (limit 2, noise floor 4)" in line and "missed: H 5" in line
