@@ -187,7 +187,8 @@ int export_to(const ExportOptions& options) {
 int export_run(const ExportOptions& options) {
   if (options.measurements) return export_measurements(options);
   if (!options.format.empty()) return export_to(options);
-  if (!options.vtu) throw InputError("export: says no format (allowed: --vtu, --to FORMAT or --measurements)");
+  if (!options.vtu)
+    throw InputError("export: says no format (allowed: --vtu, --to FORMAT or --measurements)");
   return export_vtu(options);
 }
 

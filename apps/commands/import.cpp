@@ -142,8 +142,9 @@ int import_foreign(const ImportOptions& options) {
 }  // namespace
 
 Command import_command() {
-  return command("import", "Makes a run folder of another program's snapshots (CSV, LAMMPS dumps)",
-                 import_foreign);
+  return command(
+      "import", "Makes a run folder of another program's snapshots (LAMMPS, MercuryDPM, Yade, GSD, VTK, CSV)",
+      import_foreign);
 }
 
 }  // namespace drumlin::apps

@@ -1,11 +1,15 @@
 #include "particles/bodies/snapshot.hpp"
 
+#include <numbers>
+
 #include "particles/bodies/bodies.hpp"
 
 namespace drumlin::particles {
 
 double mass_of(const Snapshot& snapshot, std::size_t grain) {
-  return snapshot.mass.empty() ? mass_of_disc(snapshot.radius[grain]) : snapshot.mass[grain];
+  const double r = snapshot.radius[grain];
+  if (snapshot.spheres) return 4 * std::numbers::pi / 3 * r * r * r / snapshot.spheres->depth;
+  return snapshot.mass.empty() ? mass_of_disc(r) : snapshot.mass[grain];
 }
 
 std::vector<SameGrain> same_grains(const Snapshot& before, const Snapshot& now) {

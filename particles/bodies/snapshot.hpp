@@ -28,6 +28,21 @@ inline std::array<double, 2> impulse_on_i(const SnapshotContact& c) {
   return {c.impulse_n * n_x + c.impulse_t * n_z, c.impulse_n * n_z - c.impulse_t * n_x};
 }
 
+/// A loaded contact of spheres, components x, z, y: the normal points from j to i, the force acts on i.
+struct SphereContact {
+  std::int32_t i = 0, j = 0;  ///< j < 0: a wall
+  std::array<double, 3> normal{}, force{};
+};
+
+/// What spheres have beside their view along y, in which a snapshot holds them per depth of a slab
+/// (docs/theory/measurement.md#spheres). Its `contacts` are then empty.
+struct SphereSlab {
+  double depth = 1;
+  std::vector<double> y, v_y;
+  std::vector<char> outside;  ///< 1: the centre is not in the slab; empty: all are
+  std::vector<SphereContact> contacts;
+};
+
 /// A cell that is periodic in x and z at one instant: its lower left corner, its height (its length is
 /// Snapshot::period_x), the displacement of the image above along x, and the rates of all that: an image that
 /// is displaced by s moves at (rate_x s_x + shear s_z, rate_z s_z).
@@ -67,6 +82,7 @@ struct Snapshot {
   std::vector<double> mass;               ///< empty where it is that of the radius, pi r^2
   bool contacts_known = true;             ///< false: the program that made it did not say where they are
   std::optional<SnapshotCell> cell = {};  ///< only in a domain that is periodic in z too
+  std::optional<SphereSlab> spheres = {};
 };
 
 /// Mass of a grain: its own, or that of its radius.

@@ -50,7 +50,8 @@ void describe(Visitor& v, FilesSource& s) {
 
 template <class Visitor>
 void describe(Visitor& v, ImportedGrains& g) {
-  v.value("density_kg_m3", g.density_kg_m3, required("kg/m3", above(0, 1e6), "Density of a disc or a sphere."));
+  v.value("density_kg_m3", g.density_kg_m3,
+          required("kg/m3", above(0, 1e6), "Density of a disc or a sphere."));
   v.value("mean_diameter_m", g.mean_diameter_m,
           when_given("m", above(0, 1e6), "d; without: the first snapshot's. Dimensionless files need it."));
   v.value("may_change", g.may_change, defaulted("", anything(), "Grains may come and go."));

@@ -298,6 +298,23 @@ def stretches(drumlin, folder):
         require((folder / "told" / name).read_bytes() == (folder / "periodic" / name).read_bytes(), f"{name} differs")
 
 
+def read_by_vtk(file):
+    """Points and arrays of a .vtu by VTK's own reader; None where VTK is not installed."""
+    try:
+        import vtk
+        from vtk.util.numpy_support import vtk_to_numpy
+    except ImportError:
+        return None
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    grid = reader.GetOutput()
+    found = {"Points": vtk_to_numpy(grid.GetPoints().GetData())}
+    for data in (grid.GetPointData(), grid.GetCellData()):
+        found |= {data.GetArrayName(k): vtk_to_numpy(data.GetArray(k)) for k in range(data.GetNumberOfArrays())}
+    return found
+
+
 def exports(drumlin, one_disc, periodic, folder):
     drumlin("export", periodic, "--vtu", "--snapshots", "2-3,5,5")
     output = periodic / "vtu"
@@ -336,6 +353,11 @@ def exports(drumlin, one_disc, periodic, folder):
     length = numpy.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     radii = grains["radius"][contacts["i"]] + numpy.where(between, grains["radius"][contacts["j"]], 0)
     require(between.any() and (~between).any() and near(length, radii * d, d), "lines do not join centres")
+
+    for kind, own in (("grains", shown), ("contacts", lines)):
+        theirs = read_by_vtk(output / kind / "000005.vtu")
+        for name in theirs or ():
+            require(numpy.array_equal(theirs[name], own[name]), f"{kind}: VTK reads other {name}")
 
     # The floor with its 7 or 8 glued discs at the height of its motion, 2 mm (sin(10 pi t)) at t = 0.2 s: 0.
     walls = arrays_of(output / "walls" / "000005.vtu")

@@ -22,6 +22,15 @@ TEST(ImportDescriptions, AreRefusedWithLineKeyAndRange) {
             {"lammps.contact_ids", "lammps.contact_forces", "lammps.depth_m"}},
            {"[csv]\ngrains = [\"a\"]\nheading = [\"time_s\"]\n[grains]\ndensity_kg_m3 = 1\n",
             {"csv.heading: appears without columns", "\"count\" once among its names"}},
+           {"dimensions = 3\n[files]\ngrains = [\"a\"]\n[grains]\ndensity_kg_m3 = 1\n[drum]\nradius_m = 1\n",
+            {"drum: appears beside dimensions = 3"}},
+           {"[files]\ngrains = []\ncontacts = [\"b\"]\n[grains]\ndensity_kg_m3 = 1\n[periodic_y]\nlength_m = "
+            "1\n",
+            {"files.grains", "files.depth_m: is needed", "periodic_y: appears without dimensions = 3"}},
+           {"[lammps]\ngrains = [\"a\"]\ncontacts = [\"b\"]\ncontact_ids = [\"i\", \"j\"]\ncontact_forces = "
+            "[\"x\", "
+            "\"y\", \"z\"]\ndepth_m = 1\n[grains]\ndensity_kg_m3 = 1\n",
+            {"lammps.contact_forces: is needed by the contacts", "2 names of columns, or 4 of two parts"}},
            {"[csv]\ngrains = [\"a\"]\n[grains]\ndensity_kg_m3 = 1\nmay_change = true\nvelocities = "
             "\"displacements\"\n",
             {"grains.velocities"}}}) {

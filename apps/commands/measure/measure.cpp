@@ -13,6 +13,7 @@
 #include "apps/commands/measure/content.hpp"
 #include "apps/commands/measure/frames_at.hpp"
 #include "apps/commands/measure/part.hpp"
+#include "apps/commands/measure/space_part.hpp"
 #include "apps/commands/measure/summary.hpp"
 #include "apps/commands/run_accuracy.hpp"
 #include "apps/commands/run_report.hpp"
@@ -48,7 +49,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr double narrow_slice_width = 2;  // d, as the paper's five slices
+constexpr double narrow_slice_width = 2;    // d, as the paper's five slices
+constexpr double surface_nu_spheres = 0.3;  // half of a packing: flows of spheres reach 0.5 to 0.6
 
 ResultFolder run_in(const fs::path& run) {
   if (!fs::is_directory(run)) throw InputError(run.string() + ": no such folder");
@@ -187,13 +189,17 @@ struct Request {
   RunRecord run;
   bool reduced = false;
   std::vector<Part> parts;
+  std::optional<particles::SphereView> spheres = {};  ///< nothing: discs
 };
 
 particles::Measurement measured_run(const Request& request, const std::vector<fs::path>& files) {
   std::vector<particles::MeasurementPart> readers;
   for (const Part& part : request.parts) readers.push_back(part.reading);
-  const particles::SnapshotSource source{files.size(),
-                                         [&](std::size_t i) { return particles::read_snapshot(files[i]); }};
+  const particles::SnapshotSource source{files.size(), [&](std::size_t i) {
+                                           return request.spheres
+                                                      ? particles::read_spheres(files[i], *request.spheres)
+                                                      : particles::read_snapshot(files[i]);
+                                         }};
   Progress progress;
   particles::Measurement measured =
       particles::measurement(source, request.settings, readers, [&](std::size_t done, std::size_t total) {
@@ -294,23 +300,37 @@ Verdict verdict_of(const Request& request, const particles::Measurement& measure
   return law.I_max >= least_range * law.I_min ? Verdict::done : Verdict::one_rate;
 }
 
-int measure_run(const MeasureOptions& options) {
+/// The run with what was asked of it; refused where it is one of discs and spheres were asked for.
+Request request_for(const MeasureOptions& options, const RunRecord& run, bool spheres) {
+  if (!spheres && (!options.slab.empty() || options.along != MeasureOptions{}.along))
+    throw InputError("--along, --slab: the run is one of discs (allowed: imported spheres)");
+  Request request{options, settings_for(options),       {},
+                  run,     run.reduced.value_or(false), reading_parts(options)};
+  if (!spheres) return request;
+  request.settings.surface_nu = surface_nu_spheres;
+  request.spheres = sphere_view(options);
+  request.parts.push_back(space_part(options));
+  return request;
+}
+
+int measure_run(const MeasureOptions& asked) {
   const auto start = std::chrono::steady_clock::now();
-  check_parts(options.parts);
-  check_slices(options.slices);
-  ResultsRequest requested = results_of(options, "measure", options.run() / "measured", "measured.json");
-  requested.computed_from = options.run();
+  check_parts(asked.parts);
+  check_slices(asked.slices);
+  ResultsRequest requested = results_of(asked, "measure", asked.run() / "measured", "measured.json");
+  requested.computed_from = asked.run();
   if (is_done_already(requested)) return static_cast<int>(ExitCode::done);
-  (void)run_in(options.run());  // a lock is left in no folder of somebody else
-  const FolderLock run_lock(options.run() / folder_lock_name, "drumlin measure");
-  const ResultFolder run_folder = run_in(options.run());
+  (void)run_in(asked.run());  // a lock is left in no folder of somebody else
+  const FolderLock run_lock(asked.run() / folder_lock_name, "drumlin measure");
+  const ResultFolder run_folder = run_in(asked.run());
   check_all_files(run_folder);
-  Request request{options, settings_for(options), {}, finished_run(run_folder), false, {}};
-  request.reduced = request.run.reduced.value_or(false);
-  const auto files = particles::snapshot_files(options.run());
+  const auto files = particles::snapshot_files(asked.run());
+  const RunRecord record = finished_run(run_folder);
   if (files.empty())
-    throw InputError(options.run().string() + ": holds no snapshots: there is nothing to measure");
-  request.parts = reading_parts(options);
+    throw InputError(asked.run().string() + ": holds no snapshots: there is nothing to measure");
+  const bool spheres = particles::holds_spheres(files.front());
+  const MeasureOptions options = spheres ? options_for_spheres(asked) : asked;
+  const Request request = request_for(options, record, spheres);
   Results results(requested);
   const fs::path& folder = results.begin();
 

@@ -22,6 +22,8 @@ struct MeasureOptions {
   std::optional<double> origin;       ///< s; absent: 0
   std::vector<double> x, z;           ///< x0, x1 and z0, z1 of the nodes of frames, d; empty: of all grains
   std::optional<double> nu_bulk;      ///< of frames; absent: of the fill at the origin
+  std::string along = "y";            ///< axis along which spheres are seen
+  std::vector<double> slab;           ///< from and to along it, d; empty: all of them
   std::string grains;  ///< snapshots whose grains get their fields written, a list as in export; empty: none
   bool verbose = false, no_figures = false;
   std::optional<std::filesystem::path> accuracy;  ///< absent: a shipped record, if there is one
@@ -70,6 +72,10 @@ struct MeasureOptions {
           "Profiles over the height as well, within a band of x in d: a silo's axis");
     d.add("--width", width, "Z0,Z1",
           "Profiles over the width as well, within a band of z in d: a silo at one height");
+    d.add("--along", along, "", one_of({"x", "y", "z"}),
+          "Axis along which spheres are seen and averaged; z becomes the height of the view unless it is "
+          "that axis");
+    d.add("--slab", slab, "A,B", "Spheres with their centres from A to B along that axis alone, in d");
     d.add("--grains", grains, "LIST",
           "Snapshots of which every grain's fields are written: all, last, or numbers and ranges such as "
           "1,5,10-20");

@@ -34,7 +34,8 @@ void add_branch(const HalfBranch<D>& branch, Binning& binning, Bins& bins) {
 /// All grains, then all half branches.
 template <class Binning, class Bins>
 void accumulate(const FlowSnapshot& snapshot, Binning&& binning, Bins& bins) {
-  for (std::size_t i = 0; i < snapshot.x.size(); ++i) add_grain(snapshot.grain(i), binning, bins);
+  for (std::size_t i = 0; i < snapshot.x.size(); ++i)
+    if (snapshot.shows(i)) add_grain(snapshot.grain(i), binning, bins);
   for (const HalfBranch<2>& branch : snapshot.half_branches()) add_branch(branch, binning, bins);
 }
 

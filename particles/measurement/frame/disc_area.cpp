@@ -29,6 +29,11 @@ double disc_area_in_quadrant(double radius, double a, double b) {
   return (left + below) / 2 + a * b - disc / 4;
 }
 
+double sphere_volume_left_of(double radius, double a) {
+  const double height = std::clamp(a + radius, 0.0, 2 * radius);  // of the cap
+  return std::numbers::pi * height * height * (radius - height / 3);
+}
+
 double disc_area_in(double x, double z, double radius, const Rectangle& rectangle) {
   const double west = rectangle.x_min - x, east = rectangle.x_max - x;
   const double south = rectangle.z_min - z, north = rectangle.z_max - z;

@@ -2,6 +2,8 @@
 // Rectangles, what lies in them of a line, and exact areas of a disc within them: volume fractions by
 // coverage need nothing else.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 namespace drumlin::particles {
@@ -39,11 +41,32 @@ struct LinePart {
   }
 };
 
+/// Half of the points of Gauss' rule of order 12 over -1 ... 1, and their weights.
+inline constexpr std::array<std::array<double, 2>, 6> gauss_points{
+    {{0.1252334085114689, 0.2491470458134028},
+     {0.3678314989981802, 0.2334925365383548},
+     {0.5873179542866175, 0.2031674267230659},
+     {0.7699026741943047, 0.1600783285433462},
+     {0.9041172563704749, 0.1069393259953184},
+     {0.9815606342467193, 0.0471753363865118}}};
+
 /// Area of a disc centred at the origin within {x <= a}.
 double disc_area_left_of(double radius, double a);
 /// Area of a disc centred at the origin within {x <= a, z <= b}.
 double disc_area_in_quadrant(double radius, double a, double b);
 /// Area common to a disc and a rectangle.
 double disc_area_in(double x, double z, double radius, const Rectangle& rectangle);
+
+/// Volume of a sphere centred at the origin within {x <= a}.
+double sphere_volume_left_of(double radius, double a);
+/// Volume of a sphere of which `area_of(r)` is the part of its cross section of radius r: by Gauss' rule,
+/// exact for a whole sphere, so that the parts of a sphere add up to it.
+template <class Area>
+double sphere_volume(double radius, const Area& area_of) {
+  double volume = 0;
+  for (const auto& [place, weight] : gauss_points)
+    volume += 2 * weight * radius * area_of(radius * std::sqrt(1 - place * place));
+  return volume;
+}
 
 }  // namespace drumlin::particles

@@ -12,15 +12,22 @@ void add_contacts(const Snapshot& snapshot, const FlowFrame& frame, FlowSnapshot
   result.contacts.clear();
   result.contacts.reserve(snapshot.contacts.size());
   result.coordination.assign(snapshot.x.size(), 0);
-  for (const SnapshotContact& contact : snapshot.contacts) {
-    const auto [impulse_x, impulse_z] = impulse_on_i(contact);
-    const auto [along, up] = frame.turned(impulse_x, impulse_z);
-    const auto [normal_x, normal_z] = frame.turned(contact.normal_x, contact.normal_z);
-    result.contacts.push_back(
-        {contact.i, contact.j, normal_x, normal_z, along / snapshot.time_step, up / snapshot.time_step});
+  const auto add = [&](const auto& contact, double normal_x, double normal_z, double force_x, double force_z,
+                       double per) {
+    const auto [along, up] = frame.turned(force_x, force_z);
+    const auto [across_x, across_z] = frame.turned(normal_x, normal_z);
+    result.contacts.push_back({contact.i, contact.j, across_x, across_z, along / per, up / per});
     for (const std::int32_t grain : {contact.i, contact.j})
       if (grain >= 0) ++result.coordination[static_cast<std::size_t>(grain)];
+  };
+  for (const SnapshotContact& contact : snapshot.contacts) {
+    const auto [impulse_x, impulse_z] = impulse_on_i(contact);
+    add(contact, contact.normal_x, contact.normal_z, impulse_x, impulse_z, snapshot.time_step);
   }
+  if (!snapshot.spheres) return;
+  for (const SphereContact& contact : snapshot.spheres->contacts)
+    add(contact, contact.normal[0], contact.normal[1], contact.force[0], contact.force[1],
+        snapshot.spheres->depth);
 }
 
 }  // namespace
@@ -84,6 +91,8 @@ void to_flow_frame(const Snapshot& snapshot, const FlowFrame& frame, VelocityKin
   for (double& spin : result.spin) spin -= own_spin;
   add_contacts(snapshot, frame, result);
   result.contacts_known = snapshot.contacts_known;
+  result.depth = snapshot.spheres ? snapshot.spheres->depth : 0;
+  result.outside = snapshot.spheres ? snapshot.spheres->outside : std::vector<char>();
 }
 
 }  // namespace drumlin::particles

@@ -29,6 +29,11 @@ struct FlowSnapshot {
   std::vector<FlowContact> contacts;
   bool contacts_known = true;  ///< false: contacts and coordination say nothing
   Period cell;                 ///< that is periodic in z too, where its grains stand; else open
+  double depth = 0;            ///< of a slab of spheres; 0: discs
+  std::vector<char> outside;   ///< of the slab, as SphereSlab has it
+
+  /// Whether a grain enters bins, with its sides of contacts.
+  bool shows(std::size_t grain) const { return outside.empty() || outside[grain] == 0; }
 
   double density_of(std::size_t grain) const { return density.empty() ? 1 : density[grain]; }
   GrainSample<2> grain(std::size_t i) const {
@@ -38,14 +43,20 @@ struct FlowSnapshot {
             radius[i],
             density_of(i),
             static_cast<double>(coordination[i]),
-            spin.empty() ? 0 : spin[i]};
+            spin.empty() ? 0 : spin[i],
+            {},
+            {},
+            depth};
   }
   /// Both sides of each contact in turn, that of i first; a wall has none. Each is made when it is looked at:
   /// stored they would take three times the memory of the contacts.
   auto half_branches() const {
     return std::views::iota(std::size_t{0}, 2 * contacts.size()) |
-           std::views::filter(
-               [this](std::size_t side) { return side % 2 == 0 || contacts[side / 2].j >= 0; }) |
+           std::views::filter([this](std::size_t side) {
+             const FlowContact& contact = contacts[side / 2];
+             const std::int32_t grain = side % 2 == 0 ? contact.i : contact.j;
+             return grain >= 0 && shows(static_cast<std::size_t>(grain));
+           }) |
            std::views::transform([this](std::size_t side) { return half_branch(side); });
   }
 
@@ -63,7 +74,7 @@ inline HalfBranch<2> FlowSnapshot::half_branch(std::size_t side) const {
           {reach * contact.normal_x, reach * contact.normal_z},
           {sign * contact.force_x, sign * contact.force_z},
           {contact.normal_x, contact.normal_z},
-          contact.j < 0};
+          contact.j<0, depth> 0 ? radius[grain] : 0};
 }
 
 /// Numbers of snapshots, and of those that know spins, contacts and densities of their own.

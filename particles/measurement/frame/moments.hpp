@@ -37,12 +37,20 @@ struct GrainSample {
   Vector<D> at{}, velocity{};  ///< relative to the drum, over the stored window
   double radius = 0, density = 1, contacts = 0, spin = 0;
   Vector<D> laboratory_velocity{},
-      force{};  ///< of this instant; of all its contacts: maps alone ask for them
+      force{};       ///< of this instant; of all its contacts: maps alone ask for them
+  double depth = 0;  ///< D = 2: of the slab of spheres in which this one is seen; 0: a disc
 
-  double area() const { return std::numbers::pi * radius * radius * (D == 2 ? 1 : 4 * radius / 3); }
+  bool is_sphere() const { return D == 3 || depth > 0; }
+  /// A volume in space, per depth of a slab.
+  double area() const {
+    const double disc = std::numbers::pi * radius * radius;
+    return is_sphere() ? per_depth(disc * 4 * radius / 3) : disc;
+  }
+  double per_depth(double volume) const { return D == 3 ? volume : volume / depth; }
   double mass() const { return density * area(); }
-  /// J spin^2 / 2, J = m r^2 / 2.
+  /// J spin^2 / 2, J = m r^2 / 2, of spheres 2 m r^2 / 5.
   double spin_energy() const {
+    if (is_sphere()) return mass() * radius * radius * spin * spin / 5;
     return density * (std::numbers::pi / 4 * (radius * radius) * (radius * radius) * spin * spin);
   }
 };
@@ -57,6 +65,7 @@ struct HalfBranch {
   Vector<D> force{};     ///< on the grain
   Vector<D> normal{};    ///< along `toward` or against it, of length 1 in single precision
   bool at_wall = false;  ///< the other side is a wall
+  double radius = 0;     ///< of a sphere in a slab, whose `toward` and `normal` are shorter; 0: of a disc
 
   Vector<D> point(double share) const {
     Vector<D> result = at;

@@ -50,6 +50,24 @@ LayerGrid ring_grid(double centre_x, double centre_z, double thickness, double r
 /// Area common to a disc of `radius` and a circle of radius `circle` whose centres are `distance` apart.
 double disc_area_in_circle(double distance, double radius, double circle);
 
+/// Parts of a grain centred at the origin, within {x <= a}, of one centred at (x, z) within a rectangle, and
+/// within a circle whose centre is `distance` from its own: areas of a disc, else volumes of a sphere.
+template <int D>
+double part_left_of(const GrainSample<D>& grain, double a) {
+  return grain.is_sphere() ? grain.per_depth(sphere_volume_left_of(grain.radius, a))
+                           : disc_area_left_of(grain.radius, a);
+}
+template <int D>
+double part_in(const GrainSample<D>& grain, double x, double z, const Rectangle& rectangle) {
+  const auto area = [&](double radius) { return disc_area_in(x, z, radius, rectangle); };
+  return grain.is_sphere() ? grain.per_depth(sphere_volume(grain.radius, area)) : area(grain.radius);
+}
+template <int D>
+double part_in_circle(const GrainSample<D>& grain, double distance, double circle) {
+  const auto area = [&](double radius) { return disc_area_in_circle(distance, radius, circle); };
+  return grain.is_sphere() ? grain.per_depth(sphere_volume(grain.radius, area)) : area(grain.radius);
+}
+
 /// The binning by layers (accumulate.hpp): exact areas, branches by their length in each layer. The place of
 /// a grain is (x, height above the middle of its layer).
 class LayerBinning {
@@ -57,17 +75,17 @@ class LayerBinning {
   /// Both live as long as this.
   explicit LayerBinning(const LayerGrid& grid) : grid_(grid) {}
 
-  template <class Action>
-  void each_part(const GrainSample<2>& grain, Action action) const;
-  template <class Action>
-  void each_centre(GrainSample<2> grain, Action action) const {
+  template <int D, class Action>
+  void each_part(const GrainSample<D>& grain, Action action) const;
+  template <int D, class Action>
+  void each_centre(GrainSample<D> grain, Action action) const {
     const std::size_t layer = grid_.layer_of(grain.at[0], grain.at[1]);
     if (layer >= grid_.layers()) return;
     grain.at[1] -= grid_.z_of(layer);
     action(layer, 1.0, grain);
   }
-  template <class Action>
-  void each_share(const HalfBranch<2>& branch, Action action) const;
+  template <int D, class Action>
+  void each_share(const HalfBranch<D>& branch, Action action) const;
 
  private:
   /// Layers that a stretch of heights touches.
@@ -119,29 +137,28 @@ class RingBinning {
   const LayerGrid& grid_;
 };
 
-template <class Action>
-void LayerBinning::each_part(const GrainSample<2>& grain, Action action) const {
-  const auto [x, z] = grain.at;
+template <int D, class Action>
+void LayerBinning::each_part(const GrainSample<D>& grain, Action action) const {
+  const double x = grain.at[0], z = grain.at[1];
   const double radius = grain.radius, z_min = grid_.z_min, thickness = grid_.thickness;
   if (x + radius <= grid_.x_min || x - radius >= grid_.x_max) return;
   const auto [first, last] =
       between(std::floor((z - radius - z_min) / thickness), std::ceil((z + radius - z_min) / thickness) - 1);
   const bool cut = x - radius < grid_.x_min || x + radius > grid_.x_max;
   // Between the sides of the slice layers cut the disc into strips: one evaluation a boundary.
-  const auto below = [&](double layer) { return disc_area_left_of(radius, z_min + layer * thickness - z); };
+  const auto below = [&](double layer) { return part_left_of(grain, z_min + layer * thickness - z); };
   double before = cut ? 0 : below(first);
   for (double layer = first; layer <= last; ++layer) {
     const double up_to = cut ? 0 : below(layer + 1);
-    action(index_of(layer), cut ? disc_area_in(x, z, radius, grid_.rectangle(static_cast<std::size_t>(layer)))
-                                : up_to - before);
+    action(index_of(layer),
+           cut ? part_in(grain, x, z, grid_.rectangle(static_cast<std::size_t>(layer))) : up_to - before);
     before = up_to;
   }
 }
 
-template <class Action>
-void LayerBinning::each_share(const HalfBranch<2>& branch, Action action) const {
-  const auto [x, z] = branch.at;
-  const auto [toward_x, toward_z] = branch.toward;
+template <int D, class Action>
+void LayerBinning::each_share(const HalfBranch<D>& branch, Action action) const {
+  const double x = branch.at[0], z = branch.at[1], toward_x = branch.toward[0], toward_z = branch.toward[1];
   if (std::min(x, x + toward_x) > grid_.x_max || std::max(x, x + toward_x) < grid_.x_min) return;
   LinePart between_sides;
   between_sides.cut(x, toward_x, grid_.x_min, grid_.x_max);
@@ -169,9 +186,9 @@ void RingBinning::each_part(const GrainSample<2>& grain, Action action) const {
   const double r = std::hypot(grain.at[0], grain.at[1]), radius = grain.radius, thickness = grid_.thickness;
   const double first = std::max(0.0, std::floor((r - radius) / thickness));
   const double end = std::min(static_cast<double>(grid_.layers()), std::ceil((r + radius) / thickness));
-  double below = disc_area_in_circle(r, radius, first * thickness);
+  double below = part_in_circle(grain, r, first * thickness);
   for (double ring = first; ring < end; ++ring) {
-    const double up_to = disc_area_in_circle(r, radius, (ring + 1) * thickness);
+    const double up_to = part_in_circle(grain, r, (ring + 1) * thickness);
     action(static_cast<std::size_t>(ring), up_to - below);
     below = up_to;
   }

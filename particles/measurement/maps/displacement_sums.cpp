@@ -18,7 +18,9 @@ void DisplacementDepositor::add_pair(const Snapshot& before, const Snapshot& now
   std::optional<CellPath> path;
   if (before.cell && now.cell) path.emplace(*cell_instant(before), *cell_instant(now));
   const KernelGrid binning(graining_, path ? path->half_way() : Period{});
+  const auto* slab = now.spheres && !now.spheres->outside.empty() ? &now.spheres->outside : nullptr;
   for (const auto& [then, i] : same_grains(before, now)) {
+    if (slab && (*slab)[i] != 0) continue;
     const MovingPoint from = grain_of(before, then), to = grain_of(now, i);
     const Point was = back_before.turned({from.at.x - before.container_x, from.at.z - before.container_z});
     const Point is = back_now.turned({to.at.x - now.container_x, to.at.z - now.container_z});

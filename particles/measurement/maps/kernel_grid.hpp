@@ -40,7 +40,7 @@ class KernelGrid {
   /// The contact's place; its normal has the length 1 there.
   template <class Action>
   void each_end(HalfBranch<2> branch, Action action) const {
-    const double length = std::hypot(branch.toward[0], branch.toward[1]);
+    const double length = branch.radius > 0 ? branch.radius : std::hypot(branch.toward[0], branch.toward[1]);
     branch.normal = {branch.toward[0] / length, branch.toward[1] / length};
     each_image(branch.point(1), 0, [&](const Vector<2>& at) {
       each_node(at, [&](MapPlace node, const KernelWeight& weight) { action(node, weight.phi, branch); });

@@ -53,6 +53,7 @@ void add_snapshot(const CoarseGraining& graining, const Snapshot& snapshot, cons
     add_branch(branch, binning, sums.nodes);
   }
   for (std::size_t i = 0; i < in_frame.x.size(); ++i) {
+    if (!in_frame.shows(i)) continue;
     Point velocity{snapshot.v_x[i], snapshot.v_z[i]};
     if (snapshot.cell) velocity = first_image(period, grain_of(snapshot, i)).velocity;
     GrainSample<2> grain = in_frame.grain(i);

@@ -30,7 +30,12 @@ WORDS = {
     "grains/displacement_z": ("d", "upwards, over the velocity window"), "contacts/i": ("1", "grain i"),
     "contacts/j": ("1", "grain j, or -1 - w for shape w of the walls"), "contacts/normal_x": ("1", "unit normal from j to i"),
     "contacts/normal_z": ("1", "unit normal from j to i"), "contacts/impulse_n": ("rho0 d^2 sqrt(g d)", "on i along the normal"),
-    "contacts/impulse_t": ("rho0 d^2 sqrt(g d)", "on i along (n_z, -n_x)")}
+    "contacts/impulse_t": ("rho0 d^2 sqrt(g d)", "on i along (n_z, -n_x)"),
+    "period_y": ("d", "length of a periodic domain; 0: open"), "period_z": ("d", "length of a periodic domain; 0: open"),
+    "grains/y": ("d", "centre, across x and z"), "grains/v_y": ("sqrt(g d)", "velocity along y"), "contacts/normal_y": ("1", "unit normal from j to i")}
+WORDS |= {f"grains/omega_{axis}": ("sqrt(g/d)", f"angular velocity about {axis}") for axis in "xyz"}
+WORDS |= {f"contacts/force_{axis}": ("rho0 g d^3", f"on i along {axis}") for axis in "xyz"}
+WORDS |= {f"tilt_{axes}": ("d", f"displacement of the image along {axes[1]}, along {axes[0]}") for axes in ("xy", "xz", "yz")}
 
 
 def main(output):

@@ -50,7 +50,7 @@ def still_parts(description, scales):
     pull = 1.0 if description["gravity"]["acceleration_m_s2"] > 0 else 0.0
     s = {"gravity_x": pull * math.cos(direction), "gravity_z": pull * math.sin(direction), "period_x": 0.0}
     if "y" in scales.axes:
-        return s | {"period_" + axis: description["periodic_" + axis]["length_m"] / scales.length_m if "periodic_" + axis in description else 0.0
+        return s | {"format": "drumlin-spheres-1"} | {"period_" + axis: description["periodic_" + axis]["length_m"] / scales.length_m if "periodic_" + axis in description else 0.0
                     for axis in "xyz"} | {"tilt_xy": 0.0, "tilt_xz": 0.0, "tilt_yz": 0.0}
     s |= {"time_step": description.get("time_step_s", scales.time_s) / scales.time_s,
           "container/x": 0.0, "container/z": 0.0, "container/radius": 0.0, "wall/spin": 0.0, "velocity_window": 0.0}
