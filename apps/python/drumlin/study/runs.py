@@ -96,11 +96,11 @@ def refused(problems):
 
 
 def read_toml(path, form=None):
-    """A TOML file; InputError where it is none, or its format is not `form`."""
+    """A TOML file; InputError where it is none or not there, or its format is not `form`."""
     try:
         content = tomllib.loads(pathlib.Path(path).read_text(encoding="utf-8"))
-    except ValueError as error:
-        raise InputError(f"{path}: {error}") from error
+    except (ValueError, FileNotFoundError, IsADirectoryError) as error:
+        raise InputError(f"{path}: {getattr(error, 'strerror', None) or error}") from error
     if form is not None and content.get("format") != form:
         raise refused([(f"{path}:1", "format", "is missing or not known here", f'"{form}"')])
     return content
