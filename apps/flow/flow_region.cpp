@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "apps/flow/flow_json.hpp"
@@ -189,11 +191,18 @@ double relative_energy_error(const continuum::RegionTotals& totals) {
   return totals.weight_work != 0 ? std::abs(totals.energy_error / totals.weight_work) : 0;
 }
 
-// What twice the cells and twice the step change: as large as the error of the flow itself at first order.
-Json accuracy_json(const RegionRun& run, const RegionRun& coarser, double cpu_seconds) {
+Json or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+// What twice the cells and twice the step change, and what the error then is at the order that is found.
+Json accuracy_json(const RegionRun& run, const RegionRun& coarser, const std::optional<RegionRun>& coarsest,
+                   double cpu_seconds) {
   Json list = Json::array();
   double worst = 0;
-  for (const auto& d : continuum::differences(run.frames(), coarser.frames(), run.times())) {
+  const auto twice = continuum::differences(run.frames(), coarser.frames(), run.times());
+  std::vector<continuum::FrameDifference> four_times;
+  if (coarsest) four_times = continuum::differences(coarser.frames(), coarsest->frames(), run.times());
+  const auto accuracy = continuum::region_accuracy(twice, four_times);
+  for (const auto& d : twice) {
     worst = std::max(worst, d.height_rms);
     list.push_back({{"time", d.time},
                     {"height_rms", d.height_rms},
@@ -201,7 +210,12 @@ Json accuracy_json(const RegionRun& run, const RegionRun& coarser, double cpu_se
                     {"centre_z", d.centre_z},
                     {"discharged", d.discharged}});
   }
-  return {{"twice_cells_and_step", list}, {"height_rms_largest", worst}, {"cpu_seconds", cpu_seconds}};
+  return {{"twice_cells_and_step", list},
+          {"height_rms_largest", worst},
+          {"height_rms", accuracy.change},
+          {"order", or_null(accuracy.order)},
+          {"height_error", or_null(accuracy.error)},
+          {"cpu_seconds", cpu_seconds}};
 }
 
 double cpu_seconds_since(std::clock_t begun) {
@@ -240,6 +254,16 @@ void begin_region_folder(const FlowOptions& options, const RegionRequest& asked,
                         asked.law.nu, described(asked.law.mu)));
 }
 
+std::string accuracy_text(const Json& accuracy) {
+  std::string text =
+      fmt::format("twice the cells and the step change the height by {:.2g} of the fill's (rms)",
+                  accuracy["height_rms"].get<double>());
+  if (!accuracy["order"].is_null()) text += fmt::format(", order {:.2g}", accuracy["order"].get<double>());
+  if (!accuracy["height_error"].is_null())
+    text += fmt::format(", error {:.2g}", accuracy["height_error"].get<double>());
+  return text + "\n";
+}
+
 std::string finished_region_text(const fs::path& folder, const Json& content) {
   const Json& checks = content["checks"];
   std::string text = fmt::format(
@@ -247,11 +271,7 @@ std::string finished_region_text(const fs::path& folder, const Json& content) {
       "weight's work\n",
       folder.string(), content["steps"].get<int>(), content["iterations"].get<int>(),
       content["cpu_seconds"].get<double>(), checks["mass"].get<double>(), checks["energy"].get<double>());
-  if (!content["accuracy"].is_null())
-    text += fmt::format(
-        "twice the cells and the step change the height by {:.2g} of the fill's (rms, largest of the "
-        "frames)\n",
-        content["accuracy"]["height_rms_largest"].get<double>());
+  if (!content["accuracy"].is_null()) text += accuracy_text(content["accuracy"]);
   return text;
 }
 
@@ -298,8 +318,14 @@ int solve_region_scene(const FlowOptions& options, const continuum::FemRuntime& 
     RegionRun coarser(asked, 2);
     const CaughtInterruptions caught;
     coarser.march({}, {});
+    std::optional<RegionRun> coarsest(std::in_place, asked, 4);
+    try {
+      coarsest->march({}, {});
+    } catch (const NotConvergedError&) {  // cells too large for the flow: no order
+      coarsest.reset();
+    }
     if (const int signal = interruption(); signal != 0) return exit_code_of(signal);
-    accuracy = accuracy_json(run, coarser, cpu_seconds_since(coarser_begun));
+    accuracy = accuracy_json(run, coarser, coarsest, cpu_seconds_since(coarser_begun));
   }
   write_frames(folder / "frames.h5", frames_of(asked, run));
   run.field().write_vtu(folder / "flow.vtu", asked.scales);

@@ -147,21 +147,20 @@ void add_side(const Discretisation& d, const BoundaryCondition& condition, const
 }
 
 // A free surface goes with the material in the mean over its sides alone. What would come in through it at a
-// point has the velocity of the surface, as inflow of a convected field is given; what passes is that of the
-// start of the step, which the mesh's velocity belongs to.
+// point has the velocity of the surface, as inflow of a convected field is given; `through`: what passes.
 void add_inflow(double density, const dealii::FEFaceValues<2>& face, const CellShapes& s,
-                const dealii::Vector<double>& local, const dealii::Vector<double>& before,
-                const dealii::Vector<double>& mesh_velocity, dealii::Vector<double>& residual,
+                const dealii::Vector<double>& local, const dealii::Vector<double>& mesh_velocity,
+                const dealii::Vector<double>& through, dealii::Vector<double>& residual,
                 dealii::FullMatrix<double>* matrix) {
   for (const unsigned int q : face.quadrature_point_indices()) {
     const auto normal = face.normal_vector(q);
     std::array<double, 2> relative{};
-    double passing = 0;  // (u - W).n
+    double passing = 0;
     for (unsigned int i = 0; i < s.n; ++i) {
       const unsigned int c = s.component[i];
       if (!moves(c)) continue;
       relative[c] += (local[i] - mesh_velocity[i]) * face.shape_value(i, q);
-      passing += (before[i] - mesh_velocity[i]) * face.shape_value(i, q) * normal[c];
+      passing += through[i] * face.shape_value(i, q) * normal[c];
     }
     if (passing >= 0) continue;
     const double brought = density * passing * face.JxW(q);
@@ -226,6 +225,7 @@ class CellSystem {
         local_(shapes_.n) {
     if (setting.inertia && setting.inertia->before) before_.reinit(shapes_.n);
     if (setting.inertia && setting.inertia->mesh_velocity) mesh_velocity_.reinit(shapes_.n);
+    if (setting.inertia && setting.inertia->passing) passing_.reinit(shapes_.n);
     contribution.indices.resize(shapes_.n);
     contribution.residual.reinit(shapes_.n);
     contribution.tangent.reinit(shapes_.n, shapes_.n);
@@ -239,6 +239,7 @@ class CellSystem {
     cell->get_dof_values(state_.solution, local_);
     if (before_.size() > 0) cell->get_dof_values(*setting_.inertia->before, before_);
     if (mesh_velocity_.size() > 0) cell->get_dof_values(*setting_.inertia->mesh_velocity, mesh_velocity_);
+    if (passing_.size() > 0) cell->get_dof_values(*setting_.inertia->passing, passing_);
     contribution.residual = 0;
     contribution.tangent = 0;
     if (with_tangent_) by_velocity_ = {};
@@ -281,10 +282,10 @@ class CellSystem {
 
   void add_face(const CellOfUnknowns& cell, unsigned int f) {
     const auto* condition = condition_on(problem_, cell->face(f)->boundary_id());
-    if (!condition && mesh_velocity_.size() > 0 &&
+    if (!condition && passing_.size() > 0 &&
         cell->face(f)->boundary_id() == static_cast<unsigned>(Side::top)) {
       face_.reinit(cell, f);
-      add_inflow(problem_.density, face_, shapes_, local_, before_, mesh_velocity_, contribution.residual,
+      add_inflow(problem_.density, face_, shapes_, local_, mesh_velocity_, passing_, contribution.residual,
                  with_tangent_ ? &contribution.tangent : nullptr);
     }
     if (!condition || (forces_of_walls_ && std::holds_alternative<FrictionWall>(*condition))) return;
@@ -304,7 +305,7 @@ class CellSystem {
   dealii::FEFaceValues<2> face_;
   CellShapes shapes_;
   VelocityTangent by_velocity_;  // of this cell
-  dealii::Vector<double> local_, before_, mesh_velocity_;
+  dealii::Vector<double> local_, before_, mesh_velocity_, passing_;
 };
 
 template <class PointLaw>

@@ -13,20 +13,45 @@ namespace {
 using fem::Newton;
 using fem::State;
 
-// One step, cut in halves where Newton's method fails.
-bool advance(Newton& newton, const FlowSolverOptions& options, double time_step, int depth,
-             fem::SolvedLevel& level) {
-  const State before = level.state;
-  const auto kept = std::make_shared<fem::FieldVector>(before.solution);
-  kept->update_ghost_values();
-  const bool done = advance_once(
-      newton, options, {.share = 1, .time_step = time_step, .before = kept, .mesh_velocity = nullptr}, level);
-  if (done) return true;
-  if (depth == 0 || newton.was_interrupted()) return false;
-  level.state = before;
-  return advance(newton, options, 0.5 * time_step, depth - 1, level) &&
-         advance(newton, options, 0.5 * time_step, depth - 1, level);
-}
+// A flow on its way.
+class Marching {
+ public:
+  Marching(const FlowMarch& march, const FlowSolverOptions& options, Newton& newton, fem::SolvedLevel& level)
+      : march_(march), options_(options), newton_(newton), level_(level) {}
+
+  /// One step, cut in halves where Newton's method fails.
+  bool advance(double time, double time_step, int depth) {
+    const State before = level_.state;
+    if (attempt(time, time_step, before.solution)) return true;
+    if (depth == 0 || newton_.was_interrupted()) return false;
+    level_.state = before;
+    return advance(time, 0.5 * time_step, depth - 1) &&
+           advance(time + 0.5 * time_step, 0.5 * time_step, depth - 1);
+  }
+
+ private:
+  bool attempt(double time, double time_step, const fem::FieldVector& start) {
+    const fem::Stage first = fem::to_middle(time_step, rate_ != nullptr), second = fem::to_end(time_step);
+    if (!reach(time + 0.5 * time_step, first, from_of(first, start, start, rate_.get()))) return false;
+    const fem::FieldVector from = from_of(second, start, level_.state.solution, nullptr);
+    if (!reach(time + time_step, second, from)) return false;
+    rate_ = rate_of(second, from, level_.state.solution);
+    return true;
+  }
+  bool reach(double time, const fem::Stage& stage, const fem::FieldVector& from) {
+    if (march_.boundary) {
+      level_.problem.boundary = march_.boundary(time);
+      level_.discretisation->constrain(level_.problem);
+    }
+    return advance_once(newton_, options_, stage, from, rate_.get(), {}, level_);
+  }
+
+  const FlowMarch& march_;
+  const FlowSolverOptions& options_;
+  Newton& newton_;
+  fem::SolvedLevel& level_;
+  std::shared_ptr<const fem::FieldVector> rate_;
+};
 
 std::shared_ptr<fem::SolvedLevel> coarsest_level(const FlowProblem& problem) {
   auto level = std::make_shared<fem::SolvedLevel>();
@@ -57,13 +82,10 @@ FlowSolution march_flow(const FlowField& start, const FlowProblem& problem, cons
   report.start = "march";
   fem::WorkClock clock;
   Newton newton(level->problem, options, d, 0, begun, clock, report, observer);
+  Marching marching(march, options, newton, *level);
   for (int step = march.first + 1; step <= march.first + march.steps; ++step) {
     const double time = step * march.time_step;
-    if (march.boundary) {
-      level->problem.boundary = march.boundary(time);
-      d.constrain(level->problem);
-    }
-    if (!advance(newton, options, march.time_step, march.halvings, *level)) break;
+    if (!marching.advance(time - march.time_step, march.time_step, march.halvings)) break;
     report.failure.clear();
     if (march.stepped) march.stepped(time, fem::field_of(level));
     report.converged = step == march.first + march.steps;

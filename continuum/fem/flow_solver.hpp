@@ -143,13 +143,13 @@ struct FlowSolution {
                                             const FlowSolverOptions& options = {},
                                             const FlowObserver& observer = {});
 
-/// Steps in time by the implicit Euler method.
+/// Steps in time by TR-BDF2, each of two systems.
 struct FlowMarch {
   double time_step = 0;  ///< sqrt(d/g)
   int steps = 0;
   int first = 0;     ///< steps that were done before: time goes on from there
   int halvings = 6;  ///< of a step whose Newton iteration fails
-  /// What holds on the sides over the step that ends at `time`; empty: that of the problem.
+  /// What holds on the sides at a time; empty: that of the problem.
   std::function<std::map<Side, BoundaryCondition>(double time)> boundary = {};
   std::function<void(double time, const FlowField&)> stepped = {};  ///< after each step; empty: not observed
 };
@@ -157,7 +157,8 @@ struct FlowMarch {
 /// The flow of `problem` from the state `start`, with inertia, in time: nu (du/dt + u.grad u) = -grad p + div
 /// tau + f. The sides' velocities may differ from those of `start`, domain and mesh are its own; `start` must
 /// not be used to solve meanwhile, for it shares the mesh. The slope is at every time that at which the
-/// surface has no moment. First order in the time step, and it damps: a steady flow is kept to the tolerance.
+/// surface has no moment. Second order in the time step (the first half step by the implicit Euler method),
+/// and it damps: a steady flow is kept to the tolerance.
 /// Nothing but the state goes from one call to the next: a march in two calls, the second from a kept state
 /// (flow_of_state), gives the same bits on one rank as in two calls at a stretch.
 [[nodiscard]] FlowSolution march_flow(const FlowField& start, const FlowProblem& problem,

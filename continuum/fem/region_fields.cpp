@@ -242,15 +242,4 @@ void transfer(const SolvedLevel& from, const RegionMesh& old_mesh, SolvedLevel& 
   solution.update_ghost_values();
 }
 
-std::vector<Vec2> transferred(const SolvedLevel& from, const RegionMesh& old_mesh,
-                              const SplitTriangles& split, const std::vector<Vec2>& corners,
-                              const std::vector<Vec2>& points) {
-  auto level = std::make_shared<SolvedLevel>(from);
-  level->state.solution = field_of_corners(*from.discretisation, split, corners);
-  std::vector<Vec2> values;
-  for (const PointState& at : values_near(FlowField(std::move(level)), old_mesh, points))
-    values.push_back(at.velocity);
-  return values;
-}
-
 }  // namespace drumlin::continuum::fem

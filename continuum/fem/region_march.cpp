@@ -69,7 +69,7 @@ class FreeFlow {
 
   FlowField field() {
     begin();
-    return field_there();
+    return FlowField(level_);
   }
 
   FlowReport march() {
@@ -84,7 +84,7 @@ class FreeFlow {
       if (observer_.stepped) observer_.stepped(now_);
     }
     report_.converged = report_.failure.empty();
-    if (report_.converged && observer_.ended) observer_.ended(field_there());
+    if (report_.converged && observer_.ended) observer_.ended(FlowField(level_));
     report_.residual = now_.residual;
     report_.seconds = fem::now() - begun_;
     for (std::size_t i = 0; i < fem::work_names.size(); ++i)
@@ -101,6 +101,12 @@ class FreeFlow {
       throw InputError("a kept state does not fit its mesh");
     for (std::size_t i = 0; i < state_.values.size(); ++i) solution[i] = state_.values[i];
     solution.update_ghost_values();
+    if (!state_.rates.empty()) {
+      auto rate = std::make_shared<FieldVector>(d().field());
+      for (std::size_t i = 0; i < state_.rates.size(); ++i) (*rate)[i] = state_.rates[i];
+      rate->update_ghost_values();
+      rate_ = rate;
+    }
     (void)d().move_corners(level_->problem, state_.mesh.vertices);
   }
 
@@ -119,6 +125,7 @@ class FreeFlow {
     level_->state.dual =
         fem::dual_of(*level_->discretisation, level_->setting.regularisation, level_->state.solution);
     split_.emplace(state_.mesh);
+    rate_ = nullptr;
   }
 
   Discretisation& d() { return *level_->discretisation; }
@@ -154,16 +161,16 @@ class FreeFlow {
     const auto left = std::ceil((event - state_.time) / dt - 1e-9);
     dt = (event - state_.time) / std::max(1.0, left);
     bool to_event = left <= 1;
-    // No part begins or ends within a step.
+    // No part begins or ends within a step; where one does at its start, what moves does so anew.
     level_->problem.boundary = sides_of(region_, state_.time + 0.5 * dt);
-    const std::vector<Vec2> w = velocity_of_mesh(state_.time, from);
+    if (changes_now()) rate_ = nullptr;
     const auto before = std::make_shared<FieldVector>(level_->state.solution);
     before->update_ghost_values();
     const fem::State old = level_->state;
     for (int halving = 0; halving <= plan_.halvings; ++halving, dt *= 0.5, to_event = false) {
       level_->state = old;
       const double to = to_event ? event : state_.time + dt;
-      if (attempt(dt, from, w, before, to >= plan_.end)) {
+      if (attempt(dt, from, *before, to >= plan_.end)) {
         state_.time = to;
         finish(dt);
         return true;
@@ -173,57 +180,112 @@ class FreeFlow {
     return false;
   }
 
-  bool attempt(double dt, const std::vector<Vec2>& from, const std::vector<Vec2>& w,
-               const std::shared_ptr<FieldVector>& before, bool is_last) {
-    const std::vector<Vec2> middle = moved(from, 0.5 * dt, w);
-    if (!take_along(middle, level_->state)) {
-      report_.failure = "the mesh turned inside out";
-      return false;
-    }
-    fem::Newton newton(level_->problem, options_, d(), 0, begun_, clock_, report_, watching_);
-    const auto mesh_velocity = std::make_shared<FieldVector>(fem::field_of_corners(d(), *split_, w));
-    if (!fem::advance_once(newton, options_,
-                           {.share = 1, .time_step = dt, .before = before, .mesh_velocity = mesh_velocity},
-                           *level_))
-      return false;
+  bool changes_now() const {
+    return std::ranges::any_of(plan_.region.parts, [&](const RegionPart& part) {
+      return part.begins == state_.time || part.ends == state_.time;
+    });
+  }
+
+  bool attempt(double dt, const std::vector<Vec2>& from, const FieldVector& start, bool is_last) {
+    const fem::Stage first = fem::to_middle(dt, rate_ != nullptr), second = fem::to_end(dt);
+    if (!placed(from)) return false;
+    level_->state.dual = fem::dual_of(d(), level_->setting.regularisation, start);
+    // The mesh at the middle by the velocity a quarter of the step ahead, that at the end by that at the
+    // middle.
+    const FieldVector quarter = from_of(first, start, start, rate_.get());
+    const std::vector<Vec2> quarter_places = places_from(first, from, from);
+    if (!placed(quarter_places)) return false;
+    set(quarter);
+    Follows follows = followed(state_.time + 0.25 * dt, quarter_places);
+    const std::vector<Vec2> middle_places = moved(from, 0.5 * dt, follows.corners);
+    guess(start, from, middle_places);
+    if (!reach(first, quarter, quarter_places, middle_places, follows)) return false;
+    follows = followed(state_.time + 0.5 * dt, middle_places);
+    std::vector<Vec2> to = on_curves(moved(from, dt, follows.corners), state_.time + dt);
+    to = behind_moving_walls(std::move(to), dt);
+    const FlowIntegrals middle = FlowField(level_).integrals();
+    const FieldVector towards_end = from_of(second, start, level_->state.solution, nullptr);
+    const std::vector<Vec2> towards_end_places = places_from(second, from, middle_places);
+    guess(level_->state.solution, middle_places, to);
+    if (!reach(second, towards_end, towards_end_places, to, follows)) return false;
     report_.failure.clear();
-    std::vector<Vec2> to = moved(from, dt, velocity_of_mesh(state_.time + 0.5 * dt, middle));
-    look(dt, is_last);
-    to = behind_moving_walls(on_curves(std::move(to), state_.time + dt), dt);
-    if (!d().move_corners(level_->problem, to)) {
-      report_.failure = "the mesh turned inside out";
-      return false;
-    }
+    // The first step on a mesh makes the velocities, which were interpolated, solenoidal: no rate of change.
+    rate_ = state_.steps_on_mesh > 0 || state_.steps == 0
+                ? rate_of(second, towards_end, level_->state.solution)
+                : nullptr;
+    state_.corner_rates = rate(second, towards_end_places, to);
     state_.mesh.vertices = std::move(to);
-    state_.solved_at = middle;
-    state_.kinetic_energy = now_.sums.kinetic_energy;
-    state_.power = power_;
+    look(dt, middle, is_last);
     return true;
   }
 
-  // Moves the mesh, and the flow from where it was solved: near the solution there, and rigid where it was.
-  // Left where it is, a velocity that turns with the mesh would stretch it at the rate rotation^2 dt, far
-  // above eps, and no direction of its D would tell anything.
-  bool take_along(const std::vector<Vec2>& to, fem::State& state) {
-    if (d().move_corners(level_->problem, state_.solved_at)) {
-      const std::vector<Vec2> way = ways(state_.solved_at, to);
-      state.dual = fem::dual_of(d(), level_->setting.regularisation, state.solution);
-      state.solution = fem::displaced(d(), state.solution, fem::field_of_corners(d(), *split_, way));
-    }
-    return d().move_corners(level_->problem, to);
-  }
-  FlowField field_there() {
-    const auto seen = std::make_shared<SolvedLevel>(*level_);
-    (void)take_along(state_.mesh.vertices, seen->state);
-    return FlowField(seen);
+  bool placed(const std::vector<Vec2>& corners) {
+    if (d().move_corners(level_->problem, corners)) return true;
+    report_.failure = "the mesh turned inside out";
+    return false;
   }
 
-  // What the step does, on the mesh at its middle.
-  void look(double dt, bool is_last) {
+  // Where no rate is known, the flow on this mesh taken along with it. Left where it is, a velocity that
+  // turns with the mesh would stretch it at the rate rotation^2 dt, far above eps.
+  void guess(const FieldVector& flow, const std::vector<Vec2>& here, const std::vector<Vec2>& there) {
+    set(rate_ ? flow : fem::displaced(d(), flow, fem::field_of_corners(d(), *split_, ways(here, there))));
+  }
+
+  void set(const FieldVector& solution) {
+    level_->state.solution = solution;
+    level_->state.solution.update_ghost_values();
+  }
+
+  // How the mesh follows the material as it flows there, and what then passes through it.
+  struct Follows {
+    std::vector<Vec2> corners;
+    std::shared_ptr<const FieldVector> passing;
+  };
+  Follows followed(double time, const std::vector<Vec2>& corners) {
+    Follows follows{velocity_of_mesh(time, corners), nullptr};
+    FieldVector passing = fem::field_of_corners(d(), *split_, follows.corners);
+    passing.sadd(-1, 1, level_->state.solution);
+    passing.update_ghost_values();
+    follows.passing = std::make_shared<FieldVector>(std::move(passing));
+    return follows;
+  }
+
+  // The end of a stage, where the mesh is to be there.
+  bool reach(const fem::Stage& stage, const FieldVector& from, const std::vector<Vec2>& from_places,
+             const std::vector<Vec2>& corners, const Follows& follows) {
+    if (!placed(corners)) return false;
+    fem::Newton newton(level_->problem, options_, d(), 0, begun_, clock_, report_, watching_);
+    const auto velocity =
+        std::make_shared<FieldVector>(fem::field_of_corners(d(), *split_, rate(stage, from_places, corners)));
+    return fem::advance_once(newton, options_, stage, from, rate_.get(), {velocity, follows.passing},
+                             *level_);
+  }
+
+  // The same sums as those of velocities.
+  std::vector<Vec2> places_from(const fem::Stage& stage, const std::vector<Vec2>& start,
+                                const std::vector<Vec2>& middle) const {
+    std::vector<Vec2> sum(start.size());
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      sum[k] = stage.start * start[k] + stage.middle * middle[k];
+      if (stage.rate != 0) sum[k] = sum[k] + stage.rate * state_.corner_rates[k];
+    }
+    return sum;
+  }
+  static std::vector<Vec2> rate(const fem::Stage& stage, const std::vector<Vec2>& from,
+                                const std::vector<Vec2>& to) {
+    std::vector<Vec2> w(from.size());
+    for (std::size_t k = 0; k < w.size(); ++k) w[k] = (1 / stage.length) * (to[k] - from[k]);
+    return w;
+  }
+
+  // What the step has done, from what holds at its middle.
+  void look(double dt, const FlowIntegrals& middle, bool is_last) {
     now_.sums = FlowField(level_).integrals();
-    const auto& s = now_.sums;
-    power_ = s.weight_power + s.given_side_power - s.dissipation - flow_.outflow_energy;
-    now_.energy_error = 0.5 * dt * (state_.power + power_) - (s.kinetic_energy - state_.kinetic_energy);
+    now_.energy_error =
+        dt * (middle.weight_power + middle.given_side_power - middle.dissipation - flow_.outflow_energy) -
+        (now_.sums.kinetic_energy - state_.kinetic_energy);
+    state_.totals.weight_work += dt * middle.weight_power;
+    state_.kinetic_energy = now_.sums.kinetic_energy;
     if (is_last) now_.loads = fem::loads_on(plan_.region, state_.time, *level_);
   }
 
@@ -287,9 +349,13 @@ class FreeFlow {
     remesh_where_needed();
     const auto& solution = level_->state.solution;
     state_.values.assign(solution.begin(), solution.end());
+    state_.rates.clear();
+    if (rate_)
+      state_.rates.assign(rate_->begin(), rate_->end());
+    else
+      state_.corner_rates.clear();
     report_.iterations += now_.iterations;
     totals.iterations += now_.iterations;
-    totals.weight_work += dt * now_.sums.weight_power;
     totals.energy_error += now_.energy_error;
     now_.step = state_.steps;
     now_.time = state_.time;
@@ -345,7 +411,6 @@ class FreeFlow {
     clock_(Work::refinement, [&] {
       const std::shared_ptr<SolvedLevel> old = level_;
       const RegionMesh old_mesh = state_.mesh;
-      const SplitTriangles old_split = *split_;
       const double scale = state_.area / total_area(outlines);
       for (Outline& outline : outlines)
         outline = with_area(resampled(outline, plan_.region, state_.time, plan_.size), plan_.region,
@@ -353,10 +418,6 @@ class FreeFlow {
       state_.mesh = mesh_of(outlines, plan_.size);
       discretise();
       fem::transfer(*old, old_mesh, *level_);
-      const std::vector<Vec2>& now = state_.mesh.vertices;
-      state_.solved_at =
-          moved(now, -1,
-                fem::transferred(*old, old_mesh, old_split, ways(state_.solved_at, old_mesh.vertices), now));
       state_.steps_on_mesh = 0;
       now_.remeshed = true;
     });
@@ -375,8 +436,8 @@ class FreeFlow {
   std::shared_ptr<SolvedLevel> level_;
   std::optional<SplitTriangles> split_;
   RegionStep now_;
-  fem::BoundaryFlow flow_;  // of the last look at the material's motion
-  double power_ = 0;        // of the weight and the walls, less what is lost to the law and carried out
+  fem::BoundaryFlow flow_;                   // of the last look at the material's motion
+  std::shared_ptr<const FieldVector> rate_;  // of the unknowns along the nodes; null: unknown
 };
 
 }  // namespace
@@ -386,7 +447,6 @@ RegionState filled(const RegionMarch& march) {
   RegionState state;
   state.area = state.totals.fill = area(fill);
   state.mesh = mesh_of(fill, march.size);
-  state.solved_at = state.mesh.vertices;
   return state;
 }
 

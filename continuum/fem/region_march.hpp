@@ -34,15 +34,15 @@ struct RegionState {
   int steps = 0;
   int steps_on_mesh = 0;  ///< since it was made
   RegionMesh mesh = {};   ///< its vertices where they are now
-  /// Its vertices where the values solved the equations of the last step; what turns with the mesh is rigid
-  /// there, to rounding.
-  std::vector<Vec2> solved_at = {};
   double area = 0;        ///< that the material has to have
   double discharged = 0;  ///< area that has left
   double kinetic_energy = 0;
-  double power = 0;  ///< that it grows by: of weight and walls, less what is lost and carried out
   RegionTotals totals = {};
   std::vector<double> values = {};  ///< of the unknowns, in deal.II's order on this mesh
+  /// What they and the corners of the triangles change by in time; empty at a start, after an event and on a
+  /// new mesh.
+  std::vector<double> rates = {};
+  std::vector<Vec2> corner_rates = {};
 };
 
 /// One finished step.
@@ -55,10 +55,10 @@ struct RegionStep {
   double discharged = 0;
   double discharge_rate = 0;
   double fastest = 0;       ///< largest speed of a corner
-  FlowIntegrals sums;       ///< on the mesh at the middle of the step
+  FlowIntegrals sums;       ///< at its end
   std::vector<Vec2> loads;  ///< of the last step: force of the material on each part of the region
-  /// Work of the weight and of the walls over the step (trapezoidal rule), less what was lost to the law and
-  /// to friction, gained as kinetic energy or carried out: nought but for the error of the step.
+  /// Work of the weight and of the walls over the step (power at its middle), less what was lost to the law
+  /// and to friction, gained as kinetic energy or carried out: nought but for the error of the step.
   double energy_error = 0;
   int cells = 0;
   bool remeshed = false;
@@ -71,7 +71,7 @@ struct RegionObserver {
 };
 
 /// Marches from `start` to the end. Not converged: the failure names time and reason. Collective; with
-/// inertia, implicit Euler, the mesh of each step at its middle.
+/// inertia, by TR-BDF2; the mesh at the middle of a step says how far that at its end has moved.
 FlowReport march_region(const RegionMarch& march, RegionState& state, const FlowSolverOptions& options,
                         const RegionObserver& observer);
 

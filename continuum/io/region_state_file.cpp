@@ -8,7 +8,7 @@
 namespace drumlin::continuum {
 namespace {
 
-const std::string format = "drumlin-flow-frame-1";
+const std::string format = "drumlin-flow-frame-2";
 constexpr std::int64_t most = std::numeric_limits<int>::max();
 
 // The numbers of a state and its step, in the order of the file.
@@ -16,9 +16,9 @@ template <class Kept, class Visit>
 void each_number(Kept& kept, Visit visit) {
   auto& [state, step, scene, law] = kept;
   auto& totals = state.totals;
-  for (auto* number : {&state.time, &state.area, &state.discharged, &state.kinetic_energy, &state.power,
-                       &totals.fill, &totals.weight_work, &totals.energy_error, &totals.mass_error,
-                       &step.time_step, &step.discharge_rate, &step.fastest})
+  for (auto* number :
+       {&state.time, &state.area, &state.discharged, &state.kinetic_energy, &totals.fill, &totals.weight_work,
+        &totals.energy_error, &totals.mass_error, &step.time_step, &step.discharge_rate, &step.fastest})
     visit(*number);
 }
 
@@ -52,16 +52,17 @@ void write_region_state(const std::filesystem::path& file, const KeptRegion& kep
   out.add_number("steps", static_cast<std::int64_t>(kept.state.steps));
   out.add_number("steps_on_mesh", static_cast<std::int64_t>(kept.state.steps_on_mesh));
   out.add_number("iterations", static_cast<std::int64_t>(kept.state.totals.iterations));
-  out.add(
-      "numbers", numbers,
-      {"d, sqrt(d/g), rho0 g d",
-       "time, area, discharged, kinetic energy, its growth; area of the fill, work of the weight, errors of "
-       "energy and mass; of the last step: its length, rate of discharge, largest speed"});
+  out.add("numbers", numbers,
+          {"d, sqrt(d/g), rho0 g d",
+           "time, area, discharged, kinetic energy; area of the fill, work of the weight, errors of "
+           "energy and mass; of the last step: its length, rate of discharge, largest speed"});
   out.add_table("vertices", flat(mesh.vertices), 2, {"d", "x, z of the corners of the triangles"});
-  out.add_table("solved_at", flat(kept.state.solved_at), 2, {"d", "the same in the middle of the last step"});
   out.add("triangles", triangles, {"1", "three corners each, anticlockwise"});
   out.add("boundary", boundary, {"1", "sides: from, to, part (walls, then openings; -1: free)"});
   out.add("values", kept.state.values, {"sqrt(g d), rho0 g d", "unknowns in deal.II's order"});
+  out.add("rates", kept.state.rates, {"rho0 g d, sqrt(d/g)", "what they change by; empty: unknown"});
+  out.add_table("corner_rates", flat(kept.state.corner_rates), 2,
+                {"sqrt(g d)", "of vertices; empty: unknown"});
   out.add_table("loads", flat(kept.step.loads), 2, {"rho0 g d^2", "force on each part, along x, z"});
   out.save(file);
 }
@@ -79,8 +80,6 @@ KeptRegion read_region_state(const std::filesystem::path& file) {
   if (count != numbers.size()) in.refuse("numbers", "another count of numbers");
   RegionMesh& mesh = kept.state.mesh;
   mesh.vertices = points_of(in.doubles("vertices", H5Range::finite));
-  kept.state.solved_at = points_of(in.doubles("solved_at", H5Range::finite));
-  if (kept.state.solved_at.size() != mesh.vertices.size()) in.refuse("solved_at", "another count of corners");
   const auto corners = static_cast<std::int32_t>(mesh.vertices.size()) - 1;
   const std::vector<std::int32_t> triangles = in.ints("triangles", 0, corners);
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3)
@@ -96,6 +95,12 @@ KeptRegion read_region_state(const std::filesystem::path& file) {
   }
   if (mesh.triangles.empty() || mesh.boundary.empty()) in.refuse("triangles", "none");
   kept.state.values = in.doubles("values", H5Range::finite);
+  kept.state.rates = in.doubles("rates", H5Range::finite);
+  kept.state.corner_rates = points_of(in.doubles("corner_rates", H5Range::finite));
+  if (const auto& rates = kept.state.rates;
+      !rates.empty() &&
+      (rates.size() != kept.state.values.size() || kept.state.corner_rates.size() != mesh.vertices.size()))
+    in.refuse("rates", "another count of unknowns or corners");
   kept.step.loads = points_of(in.doubles("loads", H5Range::finite));
   kept.step.step = kept.state.steps;
   kept.step.time = kept.state.time;

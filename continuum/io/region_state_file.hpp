@@ -15,7 +15,7 @@ struct KeptRegion {
   std::string scene, law;  ///< texts
 };
 
-/// Format "drumlin-flow-frame-1". Throws IoError.
+/// Format "drumlin-flow-frame-2". Throws IoError.
 void write_region_state(const std::filesystem::path& file, const KeptRegion& kept);
 /// Throws InputError where the file is damaged or of another version.
 KeptRegion read_region_state(const std::filesystem::path& file);

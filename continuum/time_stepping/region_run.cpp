@@ -5,6 +5,7 @@
 
 #include "continuum/model/part_line.hpp"
 #include "continuum/model/plane_vector.hpp"
+#include "coupling/core/basics/no_value.hpp"
 #include "coupling/core/results/kernel_nodes.hpp"
 
 namespace drumlin::continuum {
@@ -66,6 +67,22 @@ std::vector<FrameDifference> differences(const std::vector<Frame>& fine, const s
                    scalar("centre_z"), scalar("discharged")});
   }
   return all;
+}
+
+RegionAccuracy region_accuracy(const std::vector<FrameDifference>& twice,
+                               const std::vector<FrameDifference>& four_times) {
+  constexpr double least_order = 0.5, most_order = 2;
+  const auto height = [](const std::vector<FrameDifference>& all) {
+    double squares = 0;
+    for (const auto& d : all) squares += d.height_rms * d.height_rms;
+    return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, all.size())));
+  };
+  RegionAccuracy accuracy{height(twice), no_value, no_value};
+  if (four_times.empty()) return accuracy;
+  accuracy.order = std::log2(height(four_times) / accuracy.change);
+  if (accuracy.order >= least_order)
+    accuracy.error = accuracy.change / (std::exp2(std::min(accuracy.order, most_order)) - 1);
+  return accuracy;
 }
 
 }  // namespace drumlin::continuum

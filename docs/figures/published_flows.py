@@ -33,7 +33,7 @@ def main():
     for case, folder in (words.split("=", 1) for words in options.cases):
         flow, read = json.loads((pathlib.Path(folder) / "flow.json").read_text(encoding="utf-8")), frames.read_frames(pathlib.Path(folder) / "frames.h5")
         facts = {key: flow[key] for key in ("cells", "steps", "iterations", "cpu_seconds", "checks")} | {
-            "revision": flow["provenance"]["revision"], "twice_cells_and_step": (flow["accuracy"] or {}).get("height_rms_largest")}
+            "revision": flow["provenance"]["revision"], "accuracy": {key: (flow["accuracy"] or {}).get(key) for key in ("height_rms_largest", "order", "height_error")}}
         if case.startswith("silo:"):
             silos[float(case[5:])] = read
             found[case] = facts

@@ -76,5 +76,41 @@ TEST(March, GoesOnFromAKeptStateToTheLastBit) {
   }
 }
 
+// A layer of fluid that the slope sets going at time 0 and lets go after `begun`, at its surface.
+struct Layer {
+  static constexpr double height = 4, slope = 0.5, density = 0.8, viscosity = 3.2, begun = 2, end = 3;
+
+  static double speed_of_start(double time) {
+    if (time <= 0) return 0;
+    const double scale = density * std::sin(slope) * height * height / viscosity;
+    double sum = 0.5;
+    for (int n = 0; n < 40; ++n) {
+      const double k = (n + 0.5) * std::numbers::pi, decay = k * k * viscosity / (density * height * height);
+      sum -= 2 * (n % 2 == 0 ? 1 : -1) / (k * k * k) * std::exp(-decay * time);
+    }
+    return scale * sum;
+  }
+  static double error(int steps_per_time) {
+    FlowProblem problem = strip(height, 12, NewtonianLaw{viscosity}, constant_traction(0, 0));
+    problem.density = density;
+    problem.slope = FixedSlope{slope};
+    const auto marched = [&](const FlowField& from, double time) {
+      return ended(march_flow(from, problem,
+                              {.time_step = 1.0 / steps_per_time,
+                               .steps = static_cast<int>(std::lround(steps_per_time * time))}))
+          .field;
+    };
+    const FlowField flowing = marched(flow_at_rest(problem, one_mesh()), begun);
+    problem.slope = FixedSlope{0};
+    const FlowField last = marched(flowing, end - begun);
+    const double exact = speed_of_start(end) - speed_of_start(end - begun);
+    return std::abs(state_at(last, {0.1, height}).velocity.x / exact - 1);
+  }
+};
+
+TEST(March, OfALayerThatStartsAndStopsIsOfSecondOrder) {
+  expect_orders({Layer::error(2), Layer::error(4), Layer::error(8)}, {1.7, 1.7});
+}
+
 }  // namespace
 }  // namespace drumlin::march

@@ -44,10 +44,13 @@ inline State moved(const State& state, const FieldVector& step, double theta_ste
 
 /// How inertia enters one system.
 struct InertiaSetting {
-  double share = 1;                                            ///< of nu u.grad u
-  double time_step = 0;                                        ///< 0: steady
-  std::shared_ptr<const FieldVector> before = nullptr;         ///< solution at the start of the time step
+  double share = 1;      ///< of nu u.grad u
+  double time_step = 0;  ///< 0: steady
+  /// (u - before)/time_step is what u changes by along the nodes.
+  std::shared_ptr<const FieldVector> before = nullptr;
   std::shared_ptr<const FieldVector> mesh_velocity = nullptr;  ///< null: the mesh stays where it is
+  /// Of the material through a free surface, where its mesh moves: that of the velocities which it followed.
+  std::shared_ptr<const FieldVector> passing = nullptr;
 };
 
 /// How one system is to be formed.

@@ -28,9 +28,5 @@ std::vector<Vec2> loads_on(const Region& region, double time, const SolvedLevel&
 /// Values of the old field at the nodes of the new mesh; outside of the old one that of its nearest point.
 /// Throws NotConvergedError where a node lies far outside.
 void transfer(const SolvedLevel& from, const RegionMesh& old_mesh, SolvedLevel& to);
-/// The same of a field that is linear on each old triangle, at points.
-std::vector<Vec2> transferred(const SolvedLevel& from, const RegionMesh& old_mesh,
-                              const SplitTriangles& split, const std::vector<Vec2>& corners,
-                              const std::vector<Vec2>& points);
 
 }  // namespace drumlin::continuum::fem
