@@ -76,6 +76,7 @@ FlowSolution march_flow(const FlowField& start, const FlowProblem& problem, cons
   auto level = std::make_shared<fem::SolvedLevel>(start.level());
   level->problem = unsteady;
   level->problem.frame = std::nullopt;
+  if (const auto* fixed = std::get_if<FixedSlope>(&problem.slope)) level->state.theta = fixed->theta;
   auto& d = *level->discretisation;
   d.constrain(level->problem);
   FlowReport report;

@@ -104,7 +104,7 @@ struct Layer {
     problem.slope = FixedSlope{0};
     const FlowField last = marched(flowing, end - begun);
     const double exact = speed_of_start(end) - speed_of_start(end - begun);
-    return std::abs(state_at(last, {0.1, height}).velocity.x / exact - 1);
+    return std::abs(state_at(last, {0.1, 0}).velocity.x / exact - 1);
   }
 };
 
