@@ -151,14 +151,20 @@ TEST(RegionFlow, OfAFreeBodyDeformsInTheSameWayWhicheverWayItFalls) {
   }
 }
 
-// Hardly any friction: weight becomes motion.
+// Hardly any friction: weight becomes motion. What passes the surface, which follows the material in the mean
+// over its sides, is an error of the cells.
 TEST(RegionFlow, OfAFluidThatSloshesKeepsItsEnergy) {
-  const RegionMarch march =
-      plan({.parts = {smooth("floor", {-5, 0}, {17, 0}), smooth("left", {0, -5}, {0, 50}),
-                      smooth("right", {12, -5}, {12, 50})},
-            .fill = {{0, 0}, {12, 0}, {12, 5}, {0, 7}}},
-           2, 0.25, 3, NewtonianLaw{1e-3});
-  EXPECT_LT(ended(march).energy_error(), 2e-3);
+  const auto error = [](double cell, double step) {
+    const RegionMarch march =
+        plan({.parts = {smooth("floor", {-5, 0}, {17, 0}), smooth("left", {0, -5}, {0, 50}),
+                        smooth("right", {12, -5}, {12, 50})},
+              .fill = {{0, 0}, {12, 0}, {12, 5}, {0, 7}}},
+             cell, step, 3, NewtonianLaw{1e-3});
+    return ended(march).energy_error();
+  };
+  const double fine = error(1, 0.125);
+  EXPECT_LT(fine, 0.5 * error(2, 0.25));
+  EXPECT_LT(fine, 6e-3);
 }
 
 TEST(RegionFlow, OfAColumnKeepsItsMassAndItsEnergy) {
@@ -285,8 +291,8 @@ TEST(RegionFlow, OfADrumThatStarts) {
   RegionMarch march = plan({.parts = {drum}, .fill = fill}, 5, 0.5, 3);
   march.problem.regularisation.shear_rate = 1e-5;
   const Flow flow = ended(march);
-  // From rest eps is lowered step by step; then each flow is near the next.
-  for (std::size_t k = 2; k < flow.steps.size(); ++k) EXPECT_LE(flow.steps[k].iterations, 5) << k;
+  // From rest eps is lowered step by step; then each flow is near the next. Two systems a step.
+  for (std::size_t k = 2; k < flow.steps.size(); ++k) EXPECT_LE(flow.steps[k].iterations, 2 * 5) << k;
   const Vec2 inside{0, -8};
   const PointState at = flow_of(march, flow.state).at(std::span(&inside, 1)).front();
   EXPECT_NEAR(at.velocity.x, rotation * inside.z, 1e-3);
