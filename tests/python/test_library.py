@@ -56,3 +56,11 @@ def test_each_kind_of_grains_is_within_the_interval_of_the_law_of_all_others():
         half = np.hypot(NORMAL_99 * np.exp(mean) * np.sqrt(np.diag(covariance)), columns["mu_ci99"][here])
         inside += list(abs(columns["mu"][here] - np.exp(mean)) <= half)
     assert np.mean(inside) >= 0.95  # data/limits/laws.toml
+
+
+def test_the_command_writes_the_same_law(tmp_path):
+    said = drumlin.command("law", "--friction", 0.3, "--restitution", 0.5, "-o", tmp_path / "law.toml")
+    assert (tmp_path / "law.toml").read_text() == drumlin.law(0.3, restitution=0.5).text and "mu = " in said
+    with pytest.raises(drumlin.InputError, match="friction = 3 is outside"):
+        drumlin.command("law", "--friction", 3, "-o", tmp_path / "beyond.toml")
+    assert "extrapolates: friction = 3" in drumlin.command("law", "--friction", 3, "--extrapolate", "-o", tmp_path / "beyond.toml")
