@@ -49,7 +49,7 @@ def design():
     slowest = [run(dict(DEFAULT, friction=mu), 1e-4) for mu in (0.4, 0.0)]
     of_seeds = {seed: [run(kind, i, seed) for i in cheap for kind in grains()] for seed in (2, 3)}
     costly = [run(kind, i, seed) for seed, i, kind in itertools.product((2, 3), every, grains()) if i not in cheap]
-    return runs + of_seeds[2] + checks + slowest + of_seeds[3] + costly
+    return runs + checks + slowest + of_seeds[2] + of_seeds[3] + costly
 
 
 def name(r):
