@@ -8,7 +8,7 @@ SHARE = 0.9  # of the intervals that are written
 DETERMINED, HARDLY = 0.4, 0.8  # width over the prior's: below, determined; above, not determined
 LINKED = 0.7  # correlation from which two unknowns are named together
 AT_THE_EDGE = 0.2  # share of the samples in the outermost twentieth of a range
-FAR = 2.5  # standard deviations
+FAR = 2  # standard deviations: what fits better than one number so far off is no misfit
 
 
 def _interval(values, share=SHARE):
@@ -90,8 +90,8 @@ def combination(direction):
 
 def _fit(content):
     fit = content["misfit"]
-    if fit["data"] <= len(content["unknowns"]):
-        return [f"{fit['data']} numbers and {len(content['unknowns'])} unknowns: too few to say whether the scenes are the right ones"]
+    if not fit["is_misfit"] and fit["data"] <= len(content["unknowns"]):
+        return [f"the data fit, but {fit['data']} numbers of {len(content['unknowns'])} unknowns nearly always do"]
     if not fit["is_misfit"]:
         return [f"the data fit: {fit['share']:.0%} of the data sets that such grains give fit as badly "
                 f"(chi square {fit['chi_square']:.1f} of {fit['data']} numbers)"]
@@ -132,5 +132,5 @@ def answer(of, samples, scenes, law=None):
     fit = of.misfit(samples)
     content = {"unknowns": unknowns(of, samples), "correlations": np.corrcoef(samples.T).reshape(len(of.names), -1).tolist(),
                "directions": directions(of, samples), "data": data_rows(of, samples, scenes),
-               "misfit": fit | {"is_misfit": bool(fit["share"] < posterior.MISFIT and fit["data"] > len(of.names))}, "law": law, "samples": len(samples)}
+               "misfit": fit | {"is_misfit": bool(fit["share"] < posterior.MISFIT and fit["chi_square"] > FAR**2)}, "law": law, "samples": len(samples)}
     return content | {"words": words(content)}

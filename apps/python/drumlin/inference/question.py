@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import os
 import pathlib
 
 import numpy as np
@@ -175,6 +176,8 @@ def _scene(reader, table, key):
         reader.fault(f"{key}.scene", "is missing or one of two", "one of scene (a file, or the name of a shipped scene), table (a file) and library (a table)")
         scene = ""
     beside = reader.file.parent / scene
+    if kinds == ["table"] and not os.path.isfile(beside):
+        reader.fault(f"{key}.table", f"is {scene!r}", "a file, from the question's folder")
     measured = [_measured(reader, one, f"{key}.measured.{number}") for number, one in enumerate(table.get("measured", []))]
     if not measured:
         reader.fault(f"{key}.measured", "is empty", "one or more measured quantities")
@@ -186,6 +189,8 @@ def _scene(reader, table, key):
 def read_question(path):
     """The question in a file; InputError with all its faults."""
     path = pathlib.Path(path)
+    if not os.path.isfile(path):
+        raise refused([(str(path), "", "is no file", "a question (docs/formats/infer.md)")])
     content, reader = read_toml(path, FORMAT), Reader(path)
     reader.known(content, "", ("format", "title", "runs", "unknowns", "scenes"))
     runs = reader.number(content.get("runs", 64), "runs", 4, 100000)
