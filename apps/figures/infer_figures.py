@@ -26,12 +26,12 @@ def title_of(name, one):
     """A sentence over the panel of an unknown."""
     width = one["width_over_prior"]
     text = f"{one['median']:.3g} ({one['low']:.3g} to {one['high']:.3g})" if width <= 0.8 else "not determined"
-    return f"{label(name)}: {text}\n{max(width, 0.01):.0%} of the prior's width"
+    return f"{label(name)}\n{text}\n{max(width, 0.01):.0%} of the prior's width"
 
 
 def draw_corner(content, columns):
     unknowns, count = content["unknowns"], len(content["unknowns"])
-    figure, grid = plt.subplots(count, count, figsize=(2.9 * count + 0.8, 2.6 * count + 0.6), squeeze=False)
+    figure, grid = plt.subplots(count, count, figsize=(2.9 * count + 0.8, 2.6 * count + 0.8), squeeze=False)
     for i, (row, one) in enumerate(unknowns.items()):
         for j, (column, other) in enumerate(unknowns.items()):
             axes = grid[i][j]
