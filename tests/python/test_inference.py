@@ -241,6 +241,7 @@ def test_runs_of_others_are_a_table(tmp_path):
     assert content["unknowns"]["friction"]["median"] == pytest.approx(0.4, abs=0.01)
     assert content["unknowns"]["friction"]["sd"] == pytest.approx(0.0137, rel=0.35) and samples.shape[1] == 1
     assert [one["runs"] for one in content["designs"]] == [12, 12] and not content["misfit"]["is_misfit"]
+    assert content["law"] is None  # nothing is known of sizes and restitution
 
 
 @pytest.mark.parametrize("settings, said", [("settings = { rotation_rpm = 7 }", "0 rows"), ("settings = { speed = 6 }", "holds no column speed")])

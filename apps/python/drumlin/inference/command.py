@@ -35,6 +35,10 @@ class Table:
         points, values, errors = tables.read(self.scene, self.asked.ranges())
         return emulator.Emulator(of_unit(points), values, errors, self.scene.names()), len(points)
 
+    def grains(self):
+        """What is known of them beside the unknowns, as laws.law_of takes it; None of a table."""
+        return laws.USUAL | self.scene.settings if self.scene.kind == "library" else None
+
     def used(self, count):
         return {self.scene.kind: self.scene.scene, "runs": count}
 
@@ -72,6 +76,10 @@ class Design:
             raise NotConvergedError(f"{self.scene.name}: {len(points)} of {len(self.runs)} runs have finished (allowed: {emulator.LEAST_RUNS} or more)")
         return emulator.Emulator(of_unit(np.array(points)), np.array(values), np.array(errors), self.scene.names()), len(points)
 
+
+    def grains(self):
+        """What the scene says of them."""
+        return self.family.grains()
 
     def used(self, count):
         """What infer.json says of them."""
@@ -111,7 +119,7 @@ def inferred(asked, designs):
         of.data.append(posterior.Datum(emulated, values, errors, each.scene.realisations))
         used.append({"scene": each.scene.name} | each.used(count))
     samples, _ = of.sample()
-    content = answer.answer(of, samples, asked.scenes, laws.law_of(asked, [each.family for each in designs if isinstance(each, Design)], samples))
+    content = answer.answer(of, samples, asked.scenes, laws.law_of(asked, next(filter(None, (each.grains() for each in designs)), None), samples))
     head = {"format": "drumlin-infer-1", "reduced": any(each.reduced for each in designs), "title": asked.title, "equal": asked.equal}
     return samples, head | content | {"designs": used}
 

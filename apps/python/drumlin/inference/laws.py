@@ -71,12 +71,12 @@ class LibraryEmulator:
         return np.hypot(own, errors)
 
 
-def law_of(asked, families, samples):
-    """{I, mu, low, high}: the law of grains of the posterior with its 90 % band; None where the library does not know such grains. What is not asked for is as
-    in the first scene of grains."""
-    given = dict(USUAL)
-    for found in families[:1]:
-        given |= found.grains()
+def law_of(asked, given, samples):
+    """{I, mu, low, high}: the law of grains of the posterior with its 90 % band. given: by the names of the library, what is not unknown, or None where nothing
+    is known of it. None where the library does not know such grains."""
+    if given is None:
+        return None
+    given = USUAL | given
     names = list(asked.priors)
     chosen = samples[:: max(1, len(samples) // DRAWN)][:DRAWN]
     grains = [given | {name: float(value) for name, value in zip(names, row) if name in GRAINS} for row in chosen]
