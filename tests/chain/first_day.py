@@ -88,7 +88,7 @@ def chains(drumlin, templates, folder):
     said = flow("chute-flow", "collapse-grains")
     require("next: drumlin compare" in said, said)
     said = flow("shear-flow", "collapse-grains")
-    require(abs(read_json(place / "shear-flow-run/flow.json")["I"] - 0.0449) < 0.001, "I = 8/s sqrt(m/P)")
+    require(abs(read_json(place / "shear-flow-run/flow.json")["I"] - 0.0506) < 0.001, "I = 8/s d sqrt(rho/P)")
 
     said = measured(drumlin, files["silo"], place / "silo")
     require("calibrate" not in said and f"next: drumlin pair {place / 'silo'}/scene.toml" in said, said)
