@@ -151,7 +151,7 @@ def reports(drumlin, folder):
 
     bad = folder / "titled.toml"
     bad.write_text((folder / "shear.toml").read_text(encoding="utf-8").replace('"My shear cell"', "\"<script>alert('x')</script>\""), encoding="utf-8")
-    drumlin("run", bad, "-o", folder / "titled", *(word for change in SHORT["shear"] for word in ("--set", change)), "--set", "stages.1.snapshots=0")
+    drumlin("run", bad, "-o", folder / "titled", *(word for change in SHORT["shear"] for word in ("--set", change)), "--set", "stages.2.snapshots=0")
     drumlin("report", folder / "titled")
     page = require_page(folder / "titled" / "report", "&lt;script&gt;alert")
     require("<script" not in page and "player.html" not in page and not (folder / "titled" / "report" / "player.html").exists(), "a player of nothing")
