@@ -138,7 +138,7 @@ def samples_in(drumlin, here, data, folder):
                                        'measured = [{ quantity = "theta_deg", value = 24, interval = 0.5 }]\n', encoding="utf-8")
     return {"SCENE.toml": scene, "QUESTION.toml": csv / "question.toml", "RHEOLOGY.toml": law, "RUN": run, "DIR": run, "FLOWRUN": flow, "FIELDS": flow, "LIMITS.toml": data / "limits" / "bed.toml",
             "PROBLEM.h5": data / "problems" / "drum-300-mu-0.4-flow.h5", "DESCRIPTION.toml": csv / "import.toml", "INT": "1", "FLOAT": "1",
-            "KEY=VALUE:VALUE...": "seed=1:2"}
+            "KEY=VALUE:VALUE...": "seed=1:2", "NAME": "drum-smoke"}
 
 
 def main():
