@@ -41,9 +41,8 @@ def cluster(tmp_path):
             client.wait_for_workers(2, timeout=PATIENCE_S)
             yield client, [process.pid for process in processes[1:]]
     finally:
-        for process in processes:
-            process.terminate()
-        for process in processes:
+        for process in processes:  # one whose work was interrupted does not end by a request
+            os.killpg(process.pid, signal.SIGKILL)
             process.wait(PATIENCE_S)
 
 

@@ -183,6 +183,6 @@ def test_stress_inside_a_wall_is_normal_to_it(tmp_path):
 
 def test_a_page_moves_both_sides(tmp_path):
     comparison.compare(side(tmp_path / "a.h5", 6, 0.01), side(tmp_path / "b.h5", faster=1.2), tmp_path / "out", "collapse", LIMITS)
-    page = (tmp_path / "out/index.html").read_text()
+    page = (tmp_path / "out/index.html").read_text(encoding="utf-8")
     assert page.count("<canvas") >= 2 and "http" not in page.replace("http://www.w3.org", "")
     assert {file.name for file in (tmp_path / "out").glob("*.png")} >= {"heights.png", "maps.png", "differences.png", "series.png"}

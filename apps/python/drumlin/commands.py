@@ -281,6 +281,8 @@ def infer(question, output, designs=None, executor: str = "local", overwrite: bo
 
     question: a file (docs/formats/infer.md) or a dict of its keys, whose scenes and tables count from the current folder. designs: folder of the runs, kept
     for other questions; None: beside the output. executor: local, local:N (so many runs at a time) or dask:ADDRESS. progress: as in run.
+
+    >>> drumlin.infer("question.toml", "INFER")["infer.json"]
     """
     output = pathlib.Path(output)
     if isinstance(question, dict):

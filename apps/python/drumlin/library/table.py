@@ -102,7 +102,10 @@ def library():
 
 
 class LibraryLaw(Law):
-    """A law of the library. `I`, `low`, `high`: 99 % interval of mu at the knots; `nu_ci99`; `extrapolates`: what lies outside the table, in words."""
+    """A law of the library. `I`, `low`, `high`: 99 % interval of mu at the knots; `nu_ci99`; `extrapolates`: what lies outside the table, in words.
+
+    >>> drumlin.law(0.3).high - drumlin.law(0.3).low
+    """
 
     def __init__(self, text, I, low, high, nu_ci99, extrapolates):  # noqa: E741
         super().__init__(text)
@@ -117,6 +120,8 @@ def law(friction, restitution=0.1, spread=0.2, rolling_resistance=0.0, *, extrap
 
     friction, restitution, rolling_resistance: coefficients between grains. spread: sizes of the mean times 1 +- spread, evenly; of another
     distribution sqrt(3) times standard deviation over mean. Outside the table: refused, or with `extrapolate` a law that says so.
+
+    >>> drumlin.law(friction=0.3, restitution=0.5).mu(1e-2)
     """
     grains = {"friction": friction, "restitution": restitution, "spread": spread, "rolling_resistance": rolling_resistance}
     of = library()

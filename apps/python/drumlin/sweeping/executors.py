@@ -24,7 +24,10 @@ at_work = contextvars.ContextVar("at_work", default=None)  # the file that is th
 
 
 class Outcome(typing.NamedTuple):
-    """What became of a job: the value that it returned, or the error that it raised."""
+    """What became of a job: the value that it returned, or the error that it raised.
+
+    >>> [outcome.value for outcome in drumlin.run_all(jobs, "JOBS") if outcome.error is None]
+    """
 
     value: object = None
     error: Exception | None = None
@@ -202,6 +205,8 @@ def run_all(jobs, folder, executor=None, progress: bool | None = None, ended=Non
     checkpoint. folder: any that all workers see; a hidden file there says that the call goes on. executor: concurrent.futures, dask.distributed.Client,
     mpi4py.futures, or "local:2" (so many at once, here), "dask:ADDRESS"; None: one for each processor here. ended(number, outcome) is called here as each
     ends. A Folder that a job returns is waited for until its manifest is seen here.
+
+    >>> drumlin.run_all([functools.partial(drumlin.run, "drum-smoke", f"JOBS/{seed}", {"seed": seed}, resume=True) for seed in (1, 2)], "JOBS")
     """
     jobs = list(jobs)
     outcomes = [Outcome()] * len(jobs)

@@ -23,7 +23,10 @@ FORM = "drumlin-scene-1"
 
 class SweptRun(typing.NamedTuple):
     """A run of a sweep: what was changed in the scene, the folder of its results, the error if it failed, else None, and its numbers by name, each with
-    `value` and `ci99`, the half width of its 99 % interval (NaN, None: not known)."""
+    `value` and `ci99`, the half width of its 99 % interval (NaN, None: not known).
+
+    >>> [(run.changes, run.error) for run in drumlin.sweep("drum-smoke", {"seed": [1, 2]}, "SWEEP")]
+    """
 
     changes: dict
     folder: Folder
@@ -121,6 +124,8 @@ def sweep(scene, values, output, executor=None, progress: bool | None = None, me
     options of drumlin.measure for each run, {} for the usual; None: not measured. numbers(folder): called in the worker, {name: number, or (number, half
     width of its 99 % interval)}; absent: those of the measurement and rates of outlets. changes: of all runs, as in run. report: with figure and page.
     options: of drumlin.run.
+
+    >>> runs = drumlin.sweep("drum-smoke", {"effects.friction.grain_grain": [0.2, 0.4]}, "SWEEP", measured={})
     """
     work = Sweep(scene, values, output, changes)
     with workers_of(executor) as workers:
