@@ -24,9 +24,10 @@ TEST(ImportDescriptions, AreRefusedWithLineKeyAndRange) {
             {"csv.heading: appears without columns", "\"count\" once among its names"}},
            {"dimensions = 3\n[files]\ngrains = [\"a\"]\n[grains]\ndensity_kg_m3 = 1\n[drum]\nradius_m = 1\n",
             {"drum: appears beside dimensions = 3"}},
-           {"[files]\ngrains = []\ncontacts = [\"b\"]\n[grains]\ndensity_kg_m3 = 1\n[periodic_y]\nlength_m = "
+           {"[files]\ngrains = [\"a\"]\ncontacts = [\"b\"]\n[grains]\ndensity_kg_m3 = "
+            "1\n[periodic_y]\nlength_m = "
             "1\n",
-            {"files.grains", "files.depth_m: is needed", "periodic_y: appears without dimensions = 3"}},
+            {"files.depth_m: is needed", "periodic_y: appears without dimensions = 3"}},
            {"[lammps]\ngrains = [\"a\"]\ncontacts = [\"b\"]\ncontact_ids = [\"i\", \"j\"]\ncontact_forces = "
             "[\"x\", "
             "\"y\", \"z\"]\ndepth_m = 1\n[grains]\ndensity_kg_m3 = 1\n",

@@ -147,7 +147,9 @@ std::string call_of(const Command& command, const Description& description) {
   for (const Option& option : description.options())
     if (option.is_positional() || option.is_required)
       line += (option.is_positional() ? " " : " --" + option.name() + " ") +
-              (option.choices().empty() ? "./x" : option.choices().front());
+              (!option.choices().empty() ? option.choices().front()
+               : option.allowed          ? fmt::format("{}", option.allowed->min)
+                                         : "./x");
   return line;
 }
 
