@@ -67,10 +67,11 @@ def commands():
 
 
 # The names of the package by what they are for; each module's own page of names follows its group.
-PYTHON = {"Run and measure": ["run", "measure", "solve_flow", "compare", "make_pair", "sweep", "score", "command", "program"], "Read": ["read", "Folder", "Arrays", "value_of"],
-          "Look": ["show", "Picture"], "Step a scene": ["Simulation", "resolved", "toml_of"], "Laws": ["Law", "calibrate", "CalibratedLaw"],
+PYTHON = {"Run and measure": ["run", "measure", "solve_flow", "compare", "make_pair", "infer", "score", "command", "program"],
+          "Many runs": ["sweep", "SweptRun", "run_all", "Outcome"], "Read": ["read", "Folder", "Arrays", "value_of"],
+          "Look": ["show", "Picture"], "Step a scene": ["Simulation", "resolved", "toml_of"], "Laws": ["Law", "calibrate", "CalibratedLaw", "law", "LibraryLaw"],
           "Contact problems": ["solve_contacts", "ContactSolution", "contact_residual", "contact_solvers"],
-          "Errors": ["DrumlinError", "InputError", "NotConvergedError", "IoError"]}
+          "Errors": ["DrumlinError", "InputError", "NotConvergedError", "IoError", "Interrupted", "Killed"]}
 
 
 def python():
