@@ -27,8 +27,8 @@ struct InferOptions {
     d.add("--designs", designs, "DIR",
           "Folder of runs that other questions use, too; absent: designs, beside the output")
         .decides(Decides::nothing);
-    d.add("--executor", executor, "WHERE",
-          "Who makes the runs: local, local:N (so many at a time) or dask:ADDRESS")
+    d.add("--executor", executor, "WORKERS",
+          "Where runs are computed: local, local:N (so many at once), or dask:ADDRESS of a scheduler")
         .decides(Decides::nothing);
     d.add("--price-only", price_only, "Makes the first run of each scene, says what all will cost, and ends")
         .decides(Decides::nothing);
@@ -39,16 +39,8 @@ struct InferOptions {
 int infer(const InferOptions& options) {
   const ResultsRequest request = results_of(options, "infer", options.output, "infer.json");
   if (is_done_already(request)) return static_cast<int>(ExitCode::done);
-  const nlohmann::ordered_json given{
-      {"output", options.output.string()},
-      {"existing", options.existing == ExistingOutput::overwrite ? "--overwrite"
-                   : options.existing == ExistingOutput::resume  ? "--resume"
-                                                                 : ""},
-      {"question", options.question.string()},
-      {"designs", options.designs ? options.designs->string() : ""},
-      {"executor", options.executor},
-      {"price_only", options.price_only},
-      {"sum", request.requested}};
+  nlohmann::ordered_json given = json_of(described(options));
+  given["sum"] = request.requested;
   return end_of_command("../inference/command.py", {given.dump()});
 }
 

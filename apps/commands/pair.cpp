@@ -36,7 +36,7 @@ struct PairOptions {
     d.changes(overrides);
     d.add("--seeds", seeds, "", at_least(1, 100), "Runs of the scene, each with another seed");
     d.add("--executor", executor, "WORKERS",
-          "Where they are computed, as in drumlin sweep; local:1: one after the other")
+          "Where they are computed: local, local:N (so many at once), or dask:ADDRESS of a scheduler")
         .decides(Decides::nothing);
     d.add("--run", runs, "RUN", "Finished runs of the scene, in place of new ones");
     d.add(
@@ -52,29 +52,14 @@ struct PairOptions {
 };
 
 Json given_of(const PairOptions& options, const std::string& scene, const ResultsRequest& request) {
-  std::vector<std::string> runs;
-  for (const fs::path& run : options.runs) {
-    (void)particles::read_run_folder(run);
-    runs.push_back(run.string());
-  }
-  return {{"output", options.output.string()},
-          {"existing", options.existing == ExistingOutput::overwrite ? "--overwrite"
-                       : options.existing == ExistingOutput::resume  ? "--resume"
-                                                                     : ""},
-          {"scene", scene},
-          {"nu", read_rheology(options.law).nu},
-          {"law", options.law.string()},
-          {"sum", request.requested},
-          {"file", options.scene.string()},
-          {"runs", runs},
-          {"seeds", options.seeds},
-          {"threads", options.threads},
-          {"executor", options.executor},
-          {"at", options.at},
-          {"case", options.limits_case},
-          {"limits", (data_folder() / "limits" / "pair.toml").string()},
-          {"scene_only", options.scene_only},
-          {"accept_unsteady", options.accept_unsteady}};
+  for (const fs::path& run : options.runs) (void)particles::read_run_folder(run);
+  Json given = json_of(described(options));
+  given["file"] = given["scene"];
+  given["scene"] = scene;
+  given["nu"] = read_rheology(options.law).nu;
+  given["sum"] = request.requested;
+  given["limits"] = (data_folder() / "limits" / "pair.toml").string();
+  return given;
 }
 
 int pair(const PairOptions& options) {

@@ -11,7 +11,6 @@
 #include "continuum/fem/detail/time_step.hpp"
 #include "continuum/model/mesh_motion.hpp"
 #include "continuum/model/outline.hpp"
-#include "continuum/model/part_line.hpp"
 #include "continuum/model/plane_vector.hpp"
 #include "continuum/model/region_mesh.hpp"
 #include "continuum/model/touch_down.hpp"
@@ -29,8 +28,6 @@ using fem::Work;
 constexpr double cells_in_a_step = 0.4;  // that the fastest material passes
 constexpr int most_steps_on_a_mesh = 20;
 constexpr double poorest_quality = 0.2;
-constexpr double place_of_contact = 1e-6;  // d
-constexpr double hardly_past = 0.1;        // a wall that moves, sizes: as far as corrections of the area go
 
 std::map<Side, BoundaryCondition> sides_of(const std::shared_ptr<const Region>& region, double time) {
   std::map<Side, BoundaryCondition> sides;
@@ -45,12 +42,6 @@ std::map<Side, BoundaryCondition> sides_of(const std::shared_ptr<const Region>& 
       side = PrescribedVelocity{moves};
   }
   return sides;
-}
-
-double total_area(const std::vector<Outline>& outlines) {
-  double sum = 0;
-  for (const Outline& outline : outlines) sum += area(outline);
-  return sum;
 }
 
 // A flow on its way.
@@ -130,11 +121,6 @@ class FreeFlow {
 
   Discretisation& d() { return *level_->discretisation; }
 
-  std::vector<Vec2> velocity_of_mesh(double time, const std::vector<Vec2>& corners) {
-    flow_ = fem::boundary_flow(*level_, *split_, corners.size());
-    return corner_velocities(plan_.region, time, state_.mesh, corners, flow_.motion);
-  }
-
   // The longest step: to the next frame or change of a part at most.
   double longest_step(const std::vector<Vec2>& u) {
     double dt = plan_.step;
@@ -201,8 +187,8 @@ class FreeFlow {
     guess(start, from, middle_places);
     if (!reach(first, quarter, quarter_places, middle_places, follows)) return false;
     follows = followed(state_.time + 0.5 * dt, middle_places);
-    std::vector<Vec2> to = on_curves(moved(from, dt, follows.corners), state_.time + dt);
-    to = behind_moving_walls(std::move(to), dt);
+    std::vector<Vec2> to = held_by_walls(plan_.region, state_.time, dt, state_.mesh, plan_.size,
+                                         moved(from, dt, follows.corners));
     const FlowIntegrals middle = FlowField(level_).integrals();
     const FieldVector towards_end = from_of(second, start, level_->state.solution, nullptr);
     const std::vector<Vec2> towards_end_places = places_from(second, from, middle_places);
@@ -242,7 +228,8 @@ class FreeFlow {
     std::shared_ptr<const FieldVector> passing;
   };
   Follows followed(double time, const std::vector<Vec2>& corners) {
-    Follows follows{velocity_of_mesh(time, corners), nullptr};
+    flow_ = fem::boundary_flow(*level_, *split_, corners.size());
+    Follows follows{corner_velocities(plan_.region, time, state_.mesh, corners, flow_.motion), nullptr};
     FieldVector passing = fem::field_of_corners(d(), *split_, follows.corners);
     passing.sadd(-1, 1, level_->state.solution);
     passing.update_ghost_values();
@@ -297,52 +284,12 @@ class FreeFlow {
     for (std::size_t k = 0; k < to.size(); ++k) to[k] = to[k] - from[k];
     return to;
   }
-  // Corners on a circle stay on it.
-  std::vector<Vec2> on_curves(std::vector<Vec2> x, double time) const {
-    for (const auto& edge : state_.mesh.boundary) {
-      if (edge.part < 0) continue;
-      const RegionPart& part = plan_.region.parts[static_cast<std::size_t>(edge.part)];
-      if (!std::holds_alternative<CircleCurve>(part.curve)) continue;
-      const PartLine line = line_of(part, time);
-      for (const unsigned int v : {edge.from, edge.to}) x[v] = line.at(line.nearest(x[v]));
-    }
-    return x;
-  }
-
-  // A contact that would pass the end of a wall which moves along its own stays at that end.
-  std::vector<Vec2> behind_moving_walls(std::vector<Vec2> x, double dt) const {
-    const auto& boundary = state_.mesh.boundary;
-    const std::vector<std::size_t> side_before = sides_before(state_.mesh);
-    for (std::size_t i = 0; i < boundary.size(); ++i) {
-      const auto &before = boundary[side_before[i]], &after = boundary[i];
-      if ((before.part < 0) == (after.part < 0)) continue;
-      const RegionPart& wall =
-          plan_.region.parts[static_cast<std::size_t>(std::max(before.part, after.part))];
-      const unsigned int v = after.from, wet = before.part < 0 ? after.to : before.from;
-      const PartLine old = line_of(wall, state_.time), now = line_of(wall, state_.time + dt);
-      if (old.round()) continue;
-      const Vec2 was = state_.mesh.vertices[v];
-      const double dry = old.nearest(was) > old.nearest(state_.mesh.vertices[wet]) ? 1 : -1;
-      for (const RegionPart& part : plan_.region.parts) {
-        const Vec2 moves = wall_motion(part, state_.time);
-        const PartLine from = line_of(part, state_.time), to = line_of(part, state_.time + dt);
-        if (&part == &wall || !is_there(part, state_.time) || (moves.x == 0 && moves.z == 0)) continue;
-        for (const double s : {0.0, to.length})
-          if (now.distance(to.at(s)) < place_of_contact &&
-              old.nearest(from.at(s)) * dry > old.nearest(was) * dry - hardly_past * plan_.size(was) &&
-              now.nearest(x[v]) * dry > now.nearest(to.at(s)) * dry)
-            x[v] = to.at(s);
-      }
-    }
-    return x;
-  }
-
   void finish(double dt) {
     ++state_.steps;
     ++state_.steps_on_mesh;
     state_.discharged += flow_.outflow * dt;
     state_.area -= flow_.outflow * dt;
-    now_.area = total_area(outlines_of(state_.mesh));
+    now_.area = area(outlines_of(state_.mesh));
     RegionTotals& totals = state_.totals;
     totals.mass_error =
         std::max(totals.mass_error, std::abs(now_.area + state_.discharged - totals.fill) / totals.fill);
@@ -411,7 +358,7 @@ class FreeFlow {
     clock_(Work::refinement, [&] {
       const std::shared_ptr<SolvedLevel> old = level_;
       const RegionMesh old_mesh = state_.mesh;
-      const double scale = state_.area / total_area(outlines);
+      const double scale = state_.area / area(outlines);
       for (Outline& outline : outlines)
         outline = with_area(resampled(outline, plan_.region, state_.time, plan_.size), plan_.region,
                             state_.time, scale * area(outline));

@@ -15,8 +15,9 @@ namespace {
 constexpr double least_contact_sine = 0.3;
 // Sine of the angle below which two parts go on in one line.
 constexpr double smallest_corner_sine = 0.05;
-constexpr double at_a_wall = 1e-6;  // d
-constexpr double relaxation = 1.6;  // of Gauss-Seidel's method
+constexpr double at_a_wall = 1e-6;   // d
+constexpr double hardly_past = 0.1;  // a wall that moves, sizes: as far as corrections of the area go
+constexpr double relaxation = 1.6;   // of Gauss-Seidel's method
 constexpr int most_sweeps = 200;
 constexpr double smooth_enough = 1e-4;  // last change over the largest velocity
 
@@ -180,6 +181,39 @@ std::vector<Vec2> corner_velocities(const Region& region, double time, const Reg
     if (change <= smooth_enough * largest) break;
   }
   return w;
+}
+
+std::vector<Vec2> held_by_walls(const Region& region, double time, double step, const RegionMesh& mesh,
+                                const SizeField& size, std::vector<Vec2> x) {
+  const auto& boundary = mesh.boundary;
+  for (const auto& edge : boundary) {
+    if (edge.part < 0) continue;
+    const PartLine line = line_of(region.parts[static_cast<std::size_t>(edge.part)], time + step);
+    if (!line.round()) continue;
+    for (const unsigned int v : {edge.from, edge.to}) x[v] = line.at(line.nearest(x[v]));
+  }
+  const std::vector<std::size_t> side_before = sides_before(mesh);
+  for (std::size_t i = 0; i < boundary.size(); ++i) {
+    const auto &before = boundary[side_before[i]], &after = boundary[i];
+    if ((before.part < 0) == (after.part < 0)) continue;
+    const RegionPart& wall = region.parts[static_cast<std::size_t>(std::max(before.part, after.part))];
+    const unsigned int v = after.from, wet = before.part < 0 ? after.to : before.from;
+    const PartLine old = line_of(wall, time), now = line_of(wall, time + step);
+    if (old.round()) continue;
+    const Vec2 was = mesh.vertices[v];
+    const double dry = old.nearest(was) > old.nearest(mesh.vertices[wet]) ? 1 : -1;
+    for (const RegionPart& part : region.parts) {
+      const Vec2 moves = wall_motion(part, time);
+      const PartLine from = line_of(part, time), to = line_of(part, time + step);
+      if (&part == &wall || !is_there(part, time) || (moves.x == 0 && moves.z == 0)) continue;
+      for (const double s : {0.0, to.length})
+        if (now.distance(to.at(s)) < at_a_wall &&
+            old.nearest(from.at(s)) * dry > old.nearest(was) * dry - hardly_past * size(was) &&
+            now.nearest(x[v]) * dry > now.nearest(to.at(s)) * dry)
+          x[v] = to.at(s);
+    }
+  }
+  return x;
 }
 
 }  // namespace drumlin::continuum

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "continuum/model/region.hpp"
+#include "continuum/model/outline.hpp"
 
 namespace drumlin::continuum {
 
@@ -28,5 +28,10 @@ struct CornerMotion {
 /// contact of the surface with a wall moves along it as the flux asks.
 std::vector<Vec2> corner_velocities(const Region& region, double time, const RegionMesh& mesh,
                                     std::span<const Vec2> corners, const CornerMotion& material);
+
+/// Corners that a step from `time` on would bring to x: those on circles on them again; a contact that would
+/// pass the end of a wall which moves along its own at that end. `mesh`: at the start of the step.
+std::vector<Vec2> held_by_walls(const Region& region, double time, double step, const RegionMesh& mesh,
+                                const SizeField& size, std::vector<Vec2> x);
 
 }  // namespace drumlin::continuum

@@ -326,6 +326,11 @@ double area(const Outline& outline) {
   for (std::size_t i = 1; i + 1 < p.size(); ++i) sum += 0.5 * cross(p[i] - p[0], p[i + 1] - p[0]);
   return sum;
 }
+double area(std::span<const Outline> outlines) {
+  double sum = 0;
+  for (const Outline& outline : outlines) sum += area(outline);
+  return sum;
+}
 
 std::optional<Crossing> crossing_of(const Outline& outline) {
   const auto& p = outline.points;

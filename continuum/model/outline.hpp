@@ -2,6 +2,7 @@
 // The outline of the material as a polygon: where it lies on the parts of a region, its points, its area.
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "continuum/model/region.hpp"
 
@@ -30,6 +31,7 @@ Outline with_contacts_on_walls(Outline outline, const Region& region, double tim
 
 /// Positive: anticlockwise.
 double area(const Outline& outline);
+double area(std::span<const Outline> outlines);  ///< sum
 
 /// Free points moved along their normals, all by the same length, contacts along their walls, so that the
 /// area is exact to rounding. Throws NotConvergedError where nothing is free.

@@ -1,16 +1,18 @@
-"""The runs of the library of laws: `law_runs.py PROGRAM FOLDER [--workers N] [--first K]` runs what is missing of the design, in the order of its use.
+"""The runs of the library of laws: `law_runs.py FOLDER [--executor local:2] [--first K]` runs what is missing of the design, in the order of its use.
 
 Each run is data/scenes/plane-shear-cell.toml with other grains, shear rate, seed and accuracy; a finished run is skipped, so that a call goes on where
-the last one ended. `measure_laws.py` measures the runs.
+the last one ended. `measure_laws.py` measures the runs. PYTHONPATH holds the package.
 """
 import argparse
-import concurrent.futures
+import functools
 import itertools
 import json
 import math
 import os
 import pathlib
-import subprocess
+import sys
+
+import drumlin
 
 SCENE = pathlib.Path(__file__).resolve().parents[2] / "data/scenes/plane-shear-cell.toml"
 PRESSURE, DENSITY, DIAMETER = 270.0, 2700.0, 2e-3                       # of the scene: N/m2, kg/m3, m
@@ -99,27 +101,18 @@ def finished(folder):
         return False
 
 
-def do(program, root, r):
-    folder = root / name(r)
-    if finished(folder):
-        return
-    with open(root / (name(r) + ".log"), "w") as log:
-        code = subprocess.run([program, "run", SCENE, "-o", folder, "--threads", "1", "--overwrite", *overrides(r)], stdout=log, stderr=log).returncode
-    print(name(r), "exit", code, flush=True)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("program")
     parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--workers", type=int, default=1)
+    parser.add_argument("--executor", help="as of drumlin.run_all")
     parser.add_argument("--first", type=int, help="only so many runs of the design")
     arguments = parser.parse_args()
-    arguments.folder.mkdir(parents=True, exist_ok=True)
-    os.nice(10)
-    with concurrent.futures.ThreadPoolExecutor(arguments.workers) as pool:
-        list(pool.map(lambda r: do(arguments.program, arguments.folder, r), design()[:arguments.first]))
+    runs = [r for r in design()[:arguments.first] if not finished(arguments.folder / name(r))]
+    jobs = [functools.partial(drumlin.command, "run", str(SCENE), "-o", os.path.abspath(arguments.folder / name(r)), "--threads", "1", "--resume", *overrides(r))
+            for r in runs]
+    outcomes = drumlin.run_all(jobs, arguments.folder, arguments.executor, ended=lambda number, outcome: print(name(runs[number]), outcome.error or "", flush=True))
+    return 1 if any(outcome.error for outcome in outcomes) else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

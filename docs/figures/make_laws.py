@@ -108,7 +108,7 @@ def main():
                                one["friction"], one["I"]))
     runs = [run for several in points.values() for run in several]
     header = {"revision": ", ".join(sorted({run["revision"] for run in runs})), "runs": len(runs),
-              "command": "docs/figures/law_runs.py PROGRAM FOLDER; measure_laws.py PROGRAM FOLDER; make_laws.py FOLDER -o FILE",
+              "command": "docs/figures/law_runs.py FOLDER; measure_laws.py PROGRAM FOLDER; make_laws.py FOLDER -o FILE",
               "units": "dimensionless; angles in deg, processor time in s (docs/formats/laws.md)"}
     whole_file.write_text(arguments.output, text_of(rows, header))
     of = table.Library(arguments.output)

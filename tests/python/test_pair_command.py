@@ -77,8 +77,8 @@ def _asked(tmp_path, monkeypatch):
             write_run(folder, scene)
         answers = Answers(output)
         monkeypatch.setattr(command, "tell", answers)
-        given = {"output": str(output), "existing": "--resume", "scene": scene, "nu": 0.8, "file": name, "runs": [str(folder) for folder in folders], "seeds": 1,
-                 "threads": 1, "at": [], "case": "any", "limits": "limits.toml", "scene_only": False, "accept_unsteady": False} | options
+        given = {"output": str(output), "overwrite": False, "resume": True, "scene": scene, "nu": 0.8, "file": name, "run": [str(folder) for folder in folders], "seeds": 1,
+                 "threads": 1, "at": [], "case": "any", "limits": "limits.toml", "scene-only": False, "accept-unsteady": False} | {key.replace("_", "-"): value for key, value in options.items()}
         content = tomllib.loads(scene)
         (command.pair_of_layers if "periodic_x" in content else command.pair_of_region)(given, content, output)
         return answers, tomllib.loads((output / "flow.toml").read_text(encoding="utf-8")), compared
@@ -127,7 +127,7 @@ def test_a_run_of_another_scene_is_refused(tmp_path):
 def test_seeds_are_runs_on_an_executor(tmp_path, monkeypatch):
     called = []
     monkeypatch.setattr(command, "command", lambda *words: called.append(words))
-    given = {"scene": "seed = 5", "runs": [], "seeds": 3, "threads": 2, "executor": "local:2", "existing": "--resume"}
+    given = {"scene": "seed = 5", "run": [], "seeds": 3, "threads": 2, "executor": "local:2", "overwrite": False}
     folders = command.runs_of(given, tmp_path)
     assert [pathlib.Path(folder).name for folder in folders] == ["run-5", "run-6", "run-7"]
     assert {words[words.index("--set") + 1] for words in called} == {"seed=5", "seed=6", "seed=7"} and all("--resume" in words for words in called)

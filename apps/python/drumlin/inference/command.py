@@ -1,7 +1,7 @@
 """`drumlin infer` once its options are read: makes the runs that are missing, infers, and writes infer.json, samples.csv and figures.
 
 usage: command.py GIVEN
-  GIVEN  JSON: output, existing (--resume or --overwrite), question (file), designs (folder, or empty), executor, price_only, sum (of all that was requested)
+  GIVEN  JSON: the options of the command by their long names (apps/commands/infer.cpp), and the sum of what was requested
 """
 
 import json
@@ -145,10 +145,10 @@ def main(words):
     asked, output = question.read_question(given["question"]), pathlib.Path(given["output"])
     store = pathlib.Path(given["designs"] or output.parent / "designs")
     designs = designs_of(asked, store)
-    if given["price_only"]:
+    if given["price-only"]:
         make(designs, store, given["executor"], say, price_only=True)
         return
-    growing = _drumlin.GrowingOutput(given["output"], "infer", given["existing"] == "--resume", given["existing"] == "--overwrite", [given["question"]],
+    growing = _drumlin.GrowingOutput(given["output"], "infer", given["resume"], given["overwrite"], [given["question"]],
                                      FILES, given["sum"])
     growing.forget("*")
     growing.save()

@@ -1,11 +1,11 @@
 """`drumlin pair` once it has read the scene and the law: makes both sides and their report.
 
 usage: command.py GIVEN
-  GIVEN             JSON:
-  output, existing  folder of the results; --resume or --overwrite, for the commands below
-  scene, nu         text of the particle scene with all defaults; volume fraction of the law (OUTPUT/rheology.toml)
-  law, sum          the law's file; of all that was requested
-  file, runs, seeds, threads, executor, at, case, limits, scene_only, accept_unsteady: as the options say
+  GIVEN   JSON: the options of the command by their long names (apps/commands/pair.cpp), and
+  scene   text of the particle scene with all defaults, of `file`
+  nu      volume fraction of the law (OUTPUT/rheology.toml)
+  limits  file of the limits
+  sum     of what was requested
 """
 
 import functools
@@ -42,7 +42,7 @@ class Work:
         if begin:
             from drumlin import _drumlin  # pylint: disable=import-outside-toplevel  # tests need none
             folder = pathlib.Path(given["output"])
-            self.output = _drumlin.GrowingOutput(given["output"], "pair", given["existing"] == "--resume", given["existing"] == "--overwrite",
+            self.output = _drumlin.GrowingOutput(given["output"], "pair", given["resume"], given["overwrite"],
                                                  [given["file"], given["law"]], ["scene.toml", "rheology.toml", "flow.toml"], given["sum"])
             self.output.forget("*")
             whole_file.write_text(folder / "scene.toml", given["scene"])
@@ -58,6 +58,11 @@ class Work:
 
 
 tell = None  # a Work
+
+
+def again(given):
+    """What the commands of the steps are told about results that are there."""
+    return "--overwrite" if given["overwrite"] else "--resume"
 
 
 def toml_text(content):
@@ -111,13 +116,13 @@ def require_same_scene(given, folder):
 
 def runs_of(given, output):
     """Folders of finished runs: those that are given, or one for each seed."""
-    for folder in given["runs"]:
+    for folder in given["run"]:
         require_same_scene(given, folder)
-    if given["runs"]:
-        return given["runs"]
+    if given["run"]:
+        return given["run"]
     first = tomllib.loads(given["scene"]).get("seed", 0)
     folders = {seed: str(output / f"run-{seed}") for seed in range(first, first + given["seeds"])}
-    run = ["run", str(output / "scene.toml"), "--threads", str(given["threads"]), given["existing"] or "--resume"]
+    run = ["run", str(output / "scene.toml"), "--threads", str(given["threads"]), again(given)]
     if len(folders) == 1:  # shows its progress
         tell(words=[*run, "--set", f"seed={first}", "-o", folders[first]])
     else:
@@ -156,9 +161,9 @@ def pair_of_region(given, scene, output):
     def flow_scene(**of_run):
         return scenes.flow_scene(scene, given["nu"], given["file"], frames_s=of_run.pop("frames_s", ()), **of_run)
 
-    if not given["runs"]:
+    if not given["run"]:
         flow, _ = flow_scene(frames_s=sorted({0.0, *given["at"]}) if given["at"] else ())  # refuses before anything is run
-        if given["scene_only"]:
+        if given["scene-only"]:
             return begin(flow, output)
     require_snapshot(given, scene, first)
     tell(begin=True)
@@ -172,33 +177,33 @@ def pair_of_region(given, scene, output):
     d_mm, grid = 1e3 * runs[0].scales["length_m"], flow["output"]
     tell(words=["measure", *(str(run.folder) for run in runs), "--at", ",".join(f"{time:.12g}" for time in frames_s), "--origin", f"{origin:.12g}",
                 *(word for axis in "xz" for word in (f"--{axis}", ",".join(f"{end / d_mm:.12g}" for end in grid[f"{axis}_mm"]))),
-                "-o", str(output / "particles"), given["existing"] or "--resume"])
+                "-o", str(output / "particles"), again(given)])
     grains.surface = surface_mm(output / "particles" / "frames.h5", runs[0].scales["length_m"])
     flow, _ = flow_scene(grains=grains, sizes=sizes, ends=ends, frames_s=frames_s)
     write_flow(flow | {"output": grid}, output)
-    if given["scene_only"]:
+    if given["scene-only"]:
         return
     solve(given, output)
     compare(given, output, runs)
 
 
 def pair_of_layers(given, scene, output):
-    if not given["runs"]:
+    if not given["run"]:
         flow = layers.flow_scene(scene, given["nu"], given["file"])
-        if given["scene_only"]:
+        if given["scene-only"]:
             return begin(flow, output)
     tell(begin=True)
     runs = [Run(folder) for folder in runs_of(given, output)]
     grains, sizes = runs[0].grains_from(runs[0].snapshots[-1][0])
     write_flow(layers.flow_scene(scene, given["nu"], given["file"], grains, None if "generated" in scene["grains"] else sizes), output)
-    if given["scene_only"]:
+    if given["scene-only"]:
         return
     for run in runs[:2]:
         if not (run.folder / "measured").exists():
             tell(words=["measure", str(run.folder), "--parts", "none"])
     solve(given, output)
-    tell(words=["compare", str(runs[0].folder), str(output / "flow"), "-o", str(output / "report"), given["existing"] or "--resume",
-                *(["--floor", str(runs[1].folder)] if len(runs) > 1 else []), *(["--accept-unsteady"] if given["accept_unsteady"] else [])])
+    tell(words=["compare", str(runs[0].folder), str(output / "flow"), "-o", str(output / "report"), again(given),
+                *(["--floor", str(runs[1].folder)] if len(runs) > 1 else []), *(["--accept-unsteady"] if given["accept-unsteady"] else [])])
 
 
 def begin(flow, output):
@@ -211,7 +216,7 @@ def write_flow(flow, output):
 
 
 def solve(given, output):
-    tell(words=["flow", str(output / "flow.toml"), "--rheology", str(output / "rheology.toml"), "-o", str(output / "flow"), given["existing"] or "--resume"])
+    tell(words=["flow", str(output / "flow.toml"), "--rheology", str(output / "rheology.toml"), "-o", str(output / "flow"), again(given)])
 
 
 def compare(given, output, runs):
@@ -230,7 +235,7 @@ def main(words):
     tell = Work(given)
     (pair_of_layers if "periodic_x" in scene else pair_of_region)(given, scene, output)
     tell.output.finish()
-    if given["scene_only"]:
+    if given["scene-only"]:
         print(f"{output}: flow.toml")
     elif "periodic_x" not in scene:
         print(f"report: {(output / 'report' / 'index.html').absolute()}")
