@@ -51,7 +51,15 @@ def design():
     slowest = [run(dict(DEFAULT, friction=mu), 1e-4) for mu in (0.4, 0.0)]
     of_seeds = {seed: [run(kind, i, seed) for i in cheap for kind in grains()] for seed in (2, 3)}
     costly = [run(kind, i, seed) for seed, i, kind in itertools.product((2, 3), every, grains()) if i not in cheap]
-    return runs + checks + slowest + of_seeds[2] + of_seeds[3] + costly
+    return runs + checks + slowest + of_seeds[2] + of_seeds[3] + costly + further(every, checked, slowest)
+
+
+def further(every, checked, slowest):
+    """Seeds added after the first three were seen: where shear comes in bursts, which makes intervals wide, and for the checks and the slowest shear."""
+    bursts = [(kind, i) for i in every for kind in grains() if i < 0.01 or (kind["sizes"] == "0.05" and i <= 0.04)]
+    checks = [run(kind, i, seed, **change) for seed in (2, 3) for change in ({"count": 800}, {"step_factor": 0.5, "tolerance_factor": 0.5})
+              for kind, i in checked]
+    return checks + [dict(one, seed=seed) for seed in (2, 3) for one in slowest] + [run(kind, i, seed) for seed in (4, 5, 6) for kind, i in bursts]
 
 
 def name(r):
