@@ -4,6 +4,7 @@ Each run is data/scenes/plane-shear-cell.toml with other grains, shear rate, see
 the last one ended. `measure_laws.py` measures the runs. PYTHONPATH holds the package.
 """
 import argparse
+import csv
 import functools
 import itertools
 import json
@@ -51,15 +52,26 @@ def design():
     slowest = [run(dict(DEFAULT, friction=mu), 1e-4) for mu in (0.4, 0.0)]
     of_seeds = {seed: [run(kind, i, seed) for i in cheap for kind in grains()] for seed in (2, 3)}
     costly = [run(kind, i, seed) for seed, i, kind in itertools.product((2, 3), every, grains()) if i not in cheap]
-    return runs + checks + slowest + of_seeds[2] + of_seeds[3] + costly + further(every, checked, slowest)
+    again = [dict(one, seed=seed) for seed in (2, 3) for one in checks + slowest]
+    return runs + checks + slowest + of_seeds[2] + of_seeds[3] + costly + again
 
 
-def further(every, checked, slowest):
-    """Seeds added after the first three were seen: where shear comes in bursts, which makes intervals wide, and for the checks and the slowest shear."""
-    bursts = [(kind, i) for i in every for kind in grains() if i < 0.01 or (kind["sizes"] == "0.05" and i <= 0.04)]
-    checks = [run(kind, i, seed, **change) for seed in (2, 3) for change in ({"count": 800}, {"step_factor": 0.5, "tolerance_factor": 0.5})
-              for kind, i in checked]
-    return checks + [dict(one, seed=seed) for seed in (2, 3) for one in slowest] + [run(kind, i, seed) for seed in (4, 5, 6) for kind, i in bursts]
+MOST_SEEDS = 6
+
+
+def further(table):
+    """One more seed, MOST_SEEDS at most, of each point of the table whose interval of mu is above 3 %."""
+    rows = csv.DictReader(line for line in table.read_text().splitlines() if not line.startswith("#"))
+    wide = [row for row in rows if float(row["mu_ci99"]) > 0.03 * float(row["mu"]) and int(row["seeds"]) < MOST_SEEDS]
+    return [run({"friction": float(row["friction"]), "restitution": float(row["restitution"]), "sizes": row["sizes"],
+                 "rolling_resistance": float(row["rolling_resistance"])}, float(row["I_of_mass"]), int(row["seeds"]) + 1)
+            for row in wide if row["half_accuracy"] == "0" and row["grains"] == "400"]
+
+
+def present(folder, suffix=""):
+    """The runs of the design, with further seeds, whose NAME + suffix the folder holds."""
+    seeds = [dict(r, seed=seed) for r in design() if r["seed"] == 1 for seed in range(1, MOST_SEEDS + 1)]
+    return [r for r in seeds if (folder / (name(r) + suffix)).exists()]
 
 
 def name(r):
@@ -114,8 +126,10 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--executor", help="as of drumlin.run_all")
     parser.add_argument("--first", type=int, help="only so many runs of the design")
+    parser.add_argument("--further", type=pathlib.Path, metavar="LAWS.csv", help="in place of the design, one more seed of what is above 3 %% in that table")
     arguments = parser.parse_args()
-    runs = [r for r in design()[:arguments.first] if not finished(arguments.folder / name(r))]
+    wanted = further(arguments.further) if arguments.further else design()[:arguments.first]
+    runs = [r for r in wanted if not finished(arguments.folder / name(r))]
     jobs = [functools.partial(drumlin.command, "run", str(SCENE), "-o", os.path.abspath(arguments.folder / name(r)), "--threads", "1", "--resume", *overrides(r))
             for r in runs]
     outcomes = drumlin.run_all(jobs, arguments.folder, arguments.executor, ended=lambda number, outcome: print(name(runs[number]), outcome.error or "", flush=True))

@@ -99,16 +99,14 @@ def main():
     parser.add_argument("-o", "--output", required=True, type=pathlib.Path)
     arguments = parser.parse_args()
     points = collections.defaultdict(list)
-    for r in law_runs.design():
-        file = arguments.folder / (law_runs.name(r) + ".json")
-        if file.exists():
-            points[tuple(r[key] for key in POINT)].append(json.loads(file.read_text()))
+    for r in law_runs.present(arguments.folder, ".json"):
+        points[tuple(r[key] for key in POINT)].append(json.loads((arguments.folder / (law_runs.name(r) + ".json")).read_text()))
     rows = [row(dict(zip(POINT, point)), runs) for point, runs in points.items()]
     rows.sort(key=lambda one: (one["half_accuracy"], one["grains"], one["rolling_resistance"], one["spread"] != 0.2, one["spread"], one["restitution"],
                                one["friction"], one["I"]))
     runs = [run for several in points.values() for run in several]
     header = {"revision": ", ".join(sorted({run["revision"] for run in runs})), "runs": len(runs),
-              "command": "docs/figures/law_runs.py FOLDER; measure_laws.py PROGRAM FOLDER; make_laws.py FOLDER -o FILE",
+              "command": "docs/figures/law_runs.py FOLDER [--further FILE]; measure_laws.py PROGRAM FOLDER; make_laws.py FOLDER -o FILE",
               "units": "dimensionless; angles in deg, processor time in s (docs/formats/laws.md)"}
     whole_file.write_text(arguments.output, text_of(rows, header))
     of = table.Library(arguments.output)

@@ -84,7 +84,7 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     arguments = parser.parse_args()
     os.nice(10)
-    for r in law_runs.design():
+    for r in law_runs.present(arguments.folder):
         run = arguments.folder / law_runs.name(r)
         result = run.with_name(run.name + ".json")
         if result.exists() or not law_runs.finished(run):
