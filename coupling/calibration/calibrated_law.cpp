@@ -45,6 +45,16 @@ SampledLaw sampled(const CalibratedLaw& law, int intervals) {
   return samples;
 }
 
+std::vector<FrictionBand> coefficient_ranges(const CalibratedLaw& law) {
+  std::vector<FrictionBand> ranges;
+  for (std::size_t j = 0; j < law.fit.law.size(); ++j) {
+    std::vector<double> drawn;
+    for (const Coefficients& draw : law.draws) drawn.push_back(draw[j]);
+    ranges.push_back(range_of(std::move(drawn)));
+  }
+  return ranges;
+}
+
 double half_width_at(const CalibratedLaw& law, double I) { return law.band().half_width_at(I); }
 
 }  // namespace drumlin::coupling

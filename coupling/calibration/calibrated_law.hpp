@@ -28,6 +28,9 @@ struct SampledLaw {
 };
 SampledLaw sampled(const CalibratedLaw& law, int intervals = 60);
 
+/// Between what each coefficient lies in 99 % of the draws.
+std::vector<FrictionBand> coefficient_ranges(const CalibratedLaw& law);
+
 /// Half width of the 99 % band at I.
 double half_width_at(const CalibratedLaw& law, double I);
 

@@ -72,7 +72,14 @@ void fit_forms(Calibration& calibration) {
 
 void require_growth(const CalibratedLaw& law) {
   const double middle = std::sqrt(law.I_min * law.I_max);
-  if (law.form.kind == FormKind::table || law.curve().at(middle).slope > 0) return;
+  const auto faults = faults_of(measured_friction(law.form, law.fit.law, {}, law.I_min, law.I_max));
+  if (law.form.kind == FormKind::table || (law.curve().at(middle).slope > 0 && faults.empty())) return;
+  if (law.curve().at(middle).slope > 0)
+    throw InputError(
+        fmt::format("the points between I = {:.2g} and {:.2g} do not determine a law \"{}\": {} {} "
+                    "(allowed: {}); take another --law, or runs over a wider range of I",
+                    law.I_min, law.I_max, name_of(law.form), faults.front().key, faults.front().what,
+                    faults.front().allowed));
   throw InputError(
       fmt::format("mu(I) does not grow with I between {:.2g} and {:.2g} (mu = {:.4f}): such a law has no "
                   "steady flow; calibrate on longer or more accurate runs, or on another range of I",

@@ -45,10 +45,10 @@ std::vector<double> values_at_knots(const Coefficients& law) {
   return values;
 }
 
-void put_basis(const FrictionLaw& law, double I, std::span<double> to) {
+void put_influence(const FrictionLaw& law, double I, std::span<double> to) {
   std::visit(
       [&](const auto& of) {
-        if constexpr (requires { of.basis(I); }) std::ranges::copy(of.basis(I), to.begin());
+        if constexpr (requires { of.influence(I); }) std::ranges::copy(of.influence(I), to.begin());
       },
       law);
 }
@@ -105,6 +105,7 @@ CurvePoint FormCurve::at(double I) const {
 }
 
 void FormCurve::influence(double I, std::span<double> by_coefficient) const {
+  if (kind_ == FormKind::formula) return put_influence(std::get<FrictionLaw>(law_), I, by_coefficient);
   double factor = 1, ln_I = std::log(I);
   if (const auto* mu = std::get_if<FrictionLaw>(&law_)) {
     factor = positivity_slope(friction_at(*mu, I).mu);
@@ -113,13 +114,9 @@ void FormCurve::influence(double I, std::span<double> by_coefficient) const {
     factor = state.by_ratio * state.gain;
     ln_I = std::log(state.at.I);
   }
-  if (kind_ == FormKind::formula) {
-    put_basis(std::get<FrictionLaw>(law_), I, by_coefficient);
-  } else {
-    knots_.front().at(ln_I, by_coefficient);
-    // A coefficient lifts its own knot and all beyond it.
-    for (std::size_t j = by_coefficient.size(); j-- > 1;) by_coefficient[j - 1] += by_coefficient[j];
-  }
+  knots_.front().at(ln_I, by_coefficient);
+  // A coefficient lifts its own knot and all beyond it.
+  for (std::size_t j = by_coefficient.size(); j-- > 1;) by_coefficient[j - 1] += by_coefficient[j];
   for (double& entry : by_coefficient) entry *= factor;
 }
 

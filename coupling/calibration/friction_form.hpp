@@ -14,10 +14,10 @@
 
 namespace drumlin::coupling {
 
-/// formula: mu, a law with a basis (coupling/core/law/form.hpp). The others are tables whose coefficients are
-/// the value at the first knot and the growth from each knot to the next. table: mu, which grows.
-/// stress_ratio: k over I. turn: k as well, fitted to the stress across the strain rate over the pressure,
-/// (k - 1)/(k + 1), measured over 2|D|/sqrt(p).
+/// formula: mu, a law with an influence (coupling/core/law/form.hpp). The others are tables whose
+/// coefficients are the value at the first knot and the growth from each knot to the next. table: mu, which
+/// grows. stress_ratio: k over I. turn: k as well, fitted to the stress across the strain rate over the
+/// pressure, (k - 1)/(k + 1), measured over 2|D|/sqrt(p).
 enum class FormKind { formula, table, stress_ratio, turn };
 
 struct FrictionForm {

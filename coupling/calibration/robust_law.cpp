@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <random>
 #include <string>
@@ -183,17 +184,30 @@ void check(const std::vector<FrictionPoint>& points, const FrictionForm& form) {
 }
 
 // Draws of few blocks differ by less than new measurements would: n/(n - coefficients) of the variance, and
-// Student's t.
-double small_sample_factor(std::size_t points, int coefficients) {
-  const int blocks = static_cast<int>(points) / block_length;
+// Student's t. Each run is one block at least.
+double small_sample_factor(std::size_t points, std::size_t runs, int coefficients) {
+  const int blocks = static_cast<int>(std::max(points / block_length, runs));
   const int freedom = std::max(1, blocks - coefficients);
   return std::sqrt(static_cast<double>(std::max(blocks, 1)) / freedom) *
          statistics::student_quantile_99(freedom) / statistics::normal_quantile_99;
 }
 
-std::vector<FrictionPoint> redrawn(const std::vector<FrictionPoint>& run, std::mt19937_64& random) {
-  std::vector<FrictionPoint> draw;
-  if (run.empty()) return draw;
+/// Normal (Box and Muller), of the standard's generator: its distributions differ from one library to the
+/// next.
+double normal_draw(std::mt19937_64& random) {
+  const auto uniform = [&] { return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53; };
+  const double radius = std::sqrt(-2 * std::log(uniform()));
+  return radius * std::cos(2 * std::numbers::pi * uniform());
+}
+
+Points redrawn(const Points& run, const FormCurve& law, std::mt19937_64& random) {
+  if (run.size() < 2 * block_length) {
+    Points draw = run;
+    const double share = normal_draw(random);
+    for (FrictionPoint& point : draw) point.mu -= (1 - share) * residual(point, law);
+    return draw;
+  }
+  Points draw;
   for (const std::size_t i : statistics::block_draw(run.size(), block_length, random)) draw.push_back(run[i]);
   return draw;
 }
@@ -239,7 +253,10 @@ std::vector<Coefficients> bootstrapped(const std::vector<std::vector<FrictionPoi
   for (const auto& run : runs) all.insert(all.end(), run.begin(), run.end());
   const RobustFriction fit = fit_friction(all, form);
   const double s2 = std::max(least_scatter_squared, fit.intrinsic_scatter * fit.intrinsic_scatter);
-  const double widening = small_sample_factor(all.size(), static_cast<int>(form.size()));
+  const auto count = std::ranges::count_if(runs, [](const Points& run) { return !run.empty(); });
+  const double widening =
+      small_sample_factor(all.size(), static_cast<std::size_t>(count), static_cast<int>(form.size()));
+  const FormCurve curve(form, fit.law);
 
   std::mt19937_64 random(seed);
   std::vector<Coefficients> laws;
@@ -247,8 +264,7 @@ std::vector<Coefficients> bootstrapped(const std::vector<std::vector<FrictionPoi
     if (before_each) before_each();
     std::vector<FrictionPoint> points;
     for (const auto& run : runs) {
-      if (run.empty()) continue;
-      const auto draw = redrawn(run, random);
+      const Points draw = redrawn(run, curve, random);
       points.insert(points.end(), draw.begin(), draw.end());
     }
     Coefficients law = law_with_scatter(points, form, fit.law, s2);
@@ -263,9 +279,7 @@ BandOfDraws::BandOfDraws(const FrictionForm& form, const std::vector<Coefficient
   for (const Coefficients& law : laws) curves_.emplace_back(form, law);
 }
 
-FrictionBand BandOfDraws::at(double I, double share) const {
-  std::vector<double> values;
-  for (const FormCurve& curve : curves_) values.push_back(curve.at(I).value);
+FrictionBand range_of(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   const auto quantile = [&](double of) {
     const double place = of * static_cast<double>(values.size() - 1);
@@ -274,6 +288,12 @@ FrictionBand BandOfDraws::at(double I, double share) const {
     return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
   };
   return {quantile(0.5 * (1 - share)), quantile(0.5 * (1 + share))};
+}
+
+FrictionBand BandOfDraws::at(double I, double share) const {
+  std::vector<double> values;
+  for (const FormCurve& curve : curves_) values.push_back(curve.at(I).value);
+  return range_of(std::move(values), share);
 }
 
 double BandOfDraws::half_width_at(double I) const {

@@ -27,10 +27,12 @@ struct RobustFriction {
 RobustFriction fit_friction(const std::vector<FrictionPoint>& points, const FrictionForm& form);
 
 /// The laws of `replicates` draws: from each run as many points as it has, in blocks of neighbours (4 points,
-/// for points next to each other move together), with replacement (Kuensch, Ann. Stat. 17 (1989) 1217); the
-/// scatter is that of all points. Draws are widened about the law of all points, since few blocks differ by
-/// less than new measurements would; a coefficient that this takes below its least value is held there. The
-/// same `seed` gives the same draws. `before_each`, if there is one, is called before each: it may throw.
+/// for points next to each other move together), with replacement (Kuensch, Ann. Stat. 17 (1989) 1217); of a
+/// run of less than two blocks, which holds no others to draw, all points with their misfit times one number
+/// that is normal with variance 1 (Wu, Ann. Stat. 14 (1986) 1261). The scatter is that of all points. Draws
+/// are widened about the law of all points, since few blocks differ by less than new measurements would; a
+/// coefficient that this takes below its least value is held there. The same `seed` gives the same draws.
+/// `before_each`, if there is one, is called before each: it may throw.
 std::vector<Coefficients> bootstrapped(const std::vector<std::vector<FrictionPoint>>& runs,
                                        const FrictionForm& form, int replicates, std::uint64_t seed = 1,
                                        const std::function<void()>& before_each = {});
@@ -40,12 +42,15 @@ struct FrictionBand {
   double high = 0;
 };
 
+/// Quantiles that leave out half of 1 - `share` of the values at each end; one value at least.
+FrictionBand range_of(std::vector<double> values, double share = 0.99);
+
 /// Laws of several draws and what lies between them.
 class BandOfDraws {
  public:
   /// One law at least.
   BandOfDraws(const FrictionForm& form, const std::vector<Coefficients>& laws);
-  /// Quantiles of the laws at I that leave out half of 1 - `share` at each end.
+  /// range_of() the laws at I.
   FrictionBand at(double I, double share = 0.99) const;
   /// Half width of the 99 % band, the mean of its two sides.
   double half_width_at(double I) const;

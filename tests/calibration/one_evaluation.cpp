@@ -35,6 +35,7 @@ const std::vector<double> knots{3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1};
 std::vector<Example> frictions() {
   return {{{.formula = LogLaw{}}, {0.36, 0.014}},
           {{.formula = LogLinearLaw{}}, {0.34, 0.012, 0.4}},
+          {{.formula = JopLaw{}}, {0.383, 0.26, 0.279}},
           {{.kind = FormKind::table, .knots = knots}, {0.16, 0.006, 0.026, 0.05, 0.02, 0.01, 0.025, 0.052}}};
 }
 

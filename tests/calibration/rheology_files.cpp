@@ -59,6 +59,7 @@ TEST(RheologyFile, WhatWasWrittenIsReadBack) {
   for (const auto& [mu, words] : std::vector<std::pair<FrictionLaw, std::vector<std::string>>>{
            {ConstantLaw{0.31}, {"mu = 0.31\n"}},
            {JopLaw{0.383, 0.643, 0.279}, {"mu_s = 0.383\n", "mu_2 = 0.643\n", "I_0 = 0.279\n"}},
+           {JopLaw{0.383, 0.643, 0.279, 0.05, 0.3}, {"I_min = 0.05\n", "I_max = 0.3\n"}},
            {CohesiveLaw{0.5, 0.3, 1.1}, {"c = 0.5\n", "mu_s = 0.3\n", "b = 1.1\n"}},
            {FrictionTable{{1e-4, 1e-2, 0.1}, {0.2, 0.3, 0.33}},
             {"I = [0.0001, 0.01, 0.1]", "mu = [0.2, 0.3, 0.33]"}}}) {
@@ -142,6 +143,11 @@ TEST(RheologyFile, EveryFormOfMuNamesItsFaults) {
   expect("law = \"jop\"\nmu_s = 0.3\nmu_2 = 0.5\n", "2:", "mu.I_0");
   expect("law = \"jop\"\nmu_s = -0.3\nmu_2 = 0.5\nI_0 = 0.3\n", "4:", "mu.mu_s");
   expect("law = \"jop\"\nmu_s = 0.3\nmu_2 = 0.5\nI_0 = 0\n", "6:", "mu.I_0");
+  const std::string jop = "law = \"jop\"\nmu_s = 0.3\nmu_2 = 0.5\nI_0 = 0.3\n";
+  expect(jop + "I_min = 0.3\nI_max = 0.1\n", "8:", "is not above I_min");
+  expect(jop + "[band]\ndraws = [0.3, 0.2]\n", "8:", "a multiple of 3");
+  expect(jop + "[band]\ndraws = [0.3, 20, 0.3]\n", "8:", "out of range");
+  expect(jop + "[band]\ndraws = [0.3, -0.1, 0.3]\n", "8:", "mu falls with I");
   expect("law = \"table\"\nI = [1e-3]\nmu = [0.3]\n", "4:", "two at least");
   expect("law = \"table\"\nI = [1e-3, 1e-2]\nmu = [0.3]\n", "5:", "one mu for each I");
   expect("law = \"table\"\nI = [1e-2, 1e-3]\nmu = [0.2, 0.3]\n", "4:", "ascending");

@@ -7,8 +7,11 @@
 #include <random>
 
 #include "coupling/calibration/calibrated_law.hpp"
+#include "coupling/calibration/calibration.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/law/ill_posed.hpp"
+#include "coupling/core/law/rheology_file.hpp"
+#include "tests/files/folder.hpp"
 
 namespace drumlin::robust_law {
 using namespace coupling;
@@ -17,6 +20,8 @@ namespace {
 const FrictionForm log_linear{.formula = LogLinearLaw{}};
 const FrictionForm logarithm{.formula = LogLaw{}};
 const Coefficients truth{0.33, 0.011, 0.6};
+const FrictionForm jop{.formula = JopLaw{}};
+const Coefficients glass{0.383, 0.26, 0.279};  // mu_s, mu_2 - mu_s, I_0
 
 /// Layers of I from 1e-4 to 0.1 with normal noise.
 std::vector<FrictionPoint> layers(const Coefficients& law, double noise, int count, unsigned seed,
@@ -76,6 +81,55 @@ TEST(RobustLaw, BandOfItsDrawsHoldsTheTruthAsOftenAsItSays) {
     }
   }
   EXPECT_NEAR(static_cast<double>(inside) / compared, 0.9, 0.1);
+}
+
+/// Inclines: at each slope a few layers, whose mu is one and whose I all are off by the same share.
+std::vector<std::vector<FrictionPoint>> inclines(double noise, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal(0, 1);
+  std::vector<std::vector<FrictionPoint>> runs;
+  for (const double I : {0.04, 0.07, 0.11, 0.16, 0.22, 0.3, 0.4}) {
+    const double mu = friction(jop, glass, I), off = 1 + noise * normal(random);
+    runs.push_back({});
+    for (int layer = 0; layer < 4; ++layer) runs.back().push_back({I * off, mu, noise * I, 1e-4});
+  }
+  return runs;
+}
+
+TEST(RobustLaw, OfJopIsExactForPointsOnIt) {
+  const RobustFriction fit = fit_friction(all_of(inclines(0, 1)), jop);
+  for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(fit.law[j], glass[j], 1e-8) << j;
+}
+
+TEST(RobustLaw, BandOfShortRunsHoldsTheTruthAsOftenAsItSays) {
+  int inside = 0, compared = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const BandOfDraws draws(jop, bootstrapped(inclines(0.05, 200 + seed), jop, 100));
+    for (const double I : {0.06, 0.13, 0.3}) {
+      const FrictionBand band = draws.at(I, 0.9);
+      inside += band.low <= friction(jop, glass, I) && friction(jop, glass, I) <= band.high;
+      ++compared;
+    }
+  }
+  EXPECT_NEAR(static_cast<double>(inside) / compared, 0.9, 0.1);
+}
+
+TEST(RobustLaw, OfJopCrossesToTheFlowWithItsRangeAndDraws) {
+  std::vector<RunEvidence> runs;
+  for (const auto& layers : inclines(0.02, 7))
+    runs.push_back({.name = "incline", .nu = {"nu_bulk", 0.56, {}}, .layers = layers});
+  const CalibrationOptions options{.source = EvidenceSource::profiles, .form = "jop", .draws = 30};
+  const RheologyFit fit =
+      parse_rheology(rheology_text(calibration_of(runs, {}, options).rheology), "law.toml");
+  const JopLaw law = std::get<JopLaw>(fit.mu);
+  EXPECT_NEAR(law.mu_s, glass[0], 0.02);
+  EXPECT_NEAR(*law.I_max, 0.4, 0.03);
+  EXPECT_GT(fit.draws.size(), 10u);
+  // Points that bend upwards have no I_0.
+  for (RunEvidence& run : runs)
+    for (FrictionPoint& point : run.layers) point.mu = 0.3 + 10 * point.I * point.I;
+  expect_has(message_of<InputError>([&] { (void)calibration_of(runs, {}, options); }),
+             "do not determine a law \"jop\"");
 }
 
 TEST(RobustLaw, DrawsAreTheSameEachTime) {

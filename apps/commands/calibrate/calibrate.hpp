@@ -29,7 +29,8 @@ struct CalibrateOptions {
         "The tensors of maps.h5 (stress along the strain rate), or the ratio of profiles.csv at the centre");
     std::vector<std::string> forms = fitted_names();
     forms.insert(forms.begin(), "auto");
-    d.add("--law", law, "", one_of(forms), "Form of mu(I): a + b ln I, a + b ln I + c I, points");
+    d.add("--law", law, "", one_of(forms),
+          "Form of mu(I): a + b ln I, a + b ln I + c I, that of Jop et al., points");
     d.add("--I-min", I_min, "", above(0), "Least inertial number that is fitted");
     d.add("--I-max", I_max, "", above(0), "Greatest one");
     d.add("--draws", draws, "", at_least(16, 10000),

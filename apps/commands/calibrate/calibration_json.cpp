@@ -36,6 +36,8 @@ Json form_json(const coupling::CalibratedLaw& law, bool chosen) {
   if (!law.form.knots.empty()) {
     form["knots"] = law.form.knots;
     form["intervals_held_well_posed"] = coupling::held_intervals(law.form, law.fit.law);
+  } else {
+    form["ranges"] = coupling::coefficient_ranges(law);
   }
   form["curve"] = coupling::sampled(law);
   return form;

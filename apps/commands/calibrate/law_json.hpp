@@ -5,4 +5,5 @@
 
 namespace drumlin::coupling {
 DRUMLIN_DESCRIBED(SampledLaw, I, value, low, high)
-}
+DRUMLIN_DESCRIBED(FrictionBand, low, high)
+}  // namespace drumlin::coupling

@@ -86,12 +86,12 @@ class CalibratedLaw(Law):
 
     @property
     def form(self) -> str:
-        """Of the law: log, log-linear or table."""
+        """Of the law: log, log-linear, jop or table."""
         return self._found.form
 
     @property
     def coefficients(self) -> list[float]:
-        """Of the form: a and b of mu = a + b ln I, values at the knots of a table; a list."""
+        """Of the form: a and b of mu = a + b ln I, mu_s, mu_2 - mu_s and I_0 of Jop's, values at the knots of a table; a list."""
         return self._found.coefficients
 
     @property
@@ -131,7 +131,7 @@ def calibrate(I, mu, I_error=None, mu_error=None, *, nu, form="auto", draws=200,
     """Fits mu(I) robustly to points, as `drumlin calibrate` does to measured layers.
 
     I, mu: arrays of one run, or lists of arrays, one of each run, whose scatter tells the band. Errors are standard errors; without them
-    points count alike. nu: volume fraction of the bulk, which the law's file holds. form: "log", "log-linear", "table", "auto". draws: bootstrap
+    points count alike. nu: volume fraction of the bulk, which the law's file holds. form: "log", "log-linear", "jop", "table", "auto". draws: bootstrap
     samples; a band of 99 % needs 199. All numbers are dimensionless. progress: shown or not; None: on a terminal alone.
 
     >>> law = drumlin.calibrate(profile.I, profile.mu, nu=0.8, form="log")

@@ -13,7 +13,7 @@
 //   threshold(): mu_s, below which the material stands still
 //   I_min, I_max: the range that it was fitted on
 //   coefficients(), with(coefficients): what a fit determines, and the same form with others
-//   basis(I): what each of them is multiplied with, where mu, before it is kept positive, is their sum
+//   influence(I): of a formula, derivatives of mu by each of them
 #include <cmath>
 #include <span>
 #include <string>

@@ -33,7 +33,7 @@ double largest_measured_I(const FrictionLaw& law) {
   return std::visit(
       []<class Law>(const Law& of) {
         double largest = 0;  // not known
-        if constexpr (requires { of.I_max; }) largest = of.I_max;
+        if constexpr (requires { of.I_max; }) largest = std::optional<double>(of.I_max).value_or(0);
         if constexpr (requires { of.points(); }) largest = of.points().I.back();
         return largest > 0 ? largest : std::numeric_limits<double>::infinity();
       },

@@ -17,7 +17,10 @@ struct LogLaw {
 
   FrictionValue friction(double I) const { return kept_positive(a + b * std::log(I), b); }
   std::vector<double> coefficients() const { return {a, b}; }
-  std::array<double, 2> basis(double I) const { return {1, std::log(I)}; }
+  std::array<double, 2> influence(double I) const {
+    const double slope = positivity_slope(friction(I).mu);
+    return {slope, slope * std::log(I)};
+  }
   LogLaw with(std::span<const double> c) const { return {c[0], c[1], covariance, I_min, I_max}; }
   std::string words() const { return "mu = " + in_words(a) + " + " + in_words(b) + " ln I"; }
   std::vector<FormFault> faults() const {

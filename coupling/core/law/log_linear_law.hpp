@@ -17,7 +17,10 @@ struct LogLinearLaw {
 
   FrictionValue friction(double I) const { return kept_positive(a + b * std::log(I) + c * I, b + c * I); }
   std::vector<double> coefficients() const { return {a, b, c}; }
-  std::array<double, 3> basis(double I) const { return {1, std::log(I), I}; }
+  std::array<double, 3> influence(double I) const {
+    const double slope = positivity_slope(friction(I).mu);
+    return {slope, slope * std::log(I), slope * I};
+  }
   LogLinearLaw with(std::span<const double> of) const { return {of[0], of[1], of[2], I_min, I_max}; }
   std::string words() const {
     return "mu = " + in_words(a) + " + " + in_words(b) + " ln I + " + in_words(c) + " I";
