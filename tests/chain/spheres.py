@@ -37,7 +37,7 @@ def index(a, b, c):
 
 
 def write_lattice(folder):
-    """Each contact from both sides."""
+    """Each contact from both sides; across the period each with an image of the other, whose id is beyond those of the grains."""
     folder.mkdir()
     places = [(a, b, c) for c in range(LEVELS) for b in range(SIDE) for a in range(SIDE)]
     with open(folder / "lattice.data", "w", encoding="utf-8") as grains, open(folder / "lattice.fstat", "w", encoding="utf-8") as contacts:
@@ -53,8 +53,22 @@ def write_lattice(folder):
                     if other[2] == LEVELS:
                         continue
                     normal = [float(k == axis) for k in range(3)]
+                    across = len(places) * (max(other[:2]) == SIDE)
                     for i, j, sign in ((index(*other), index(a, b, c), 1), (index(a, b, c), index(*other), -1)):
+                        j += across
                         contacts.write(f"{time} {i} {j} 0 0 0 0 0 {push} 0 {' '.join(repr(sign * n) for n in normal)} 0 0 0\n")
+
+
+def require_no_layers_across_a_period(drumlin, folder):
+    """A box that repeats along all of its axes has no height."""
+    frame = "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n0 4\n0 4\n0 4\nITEM: ATOMS id x y z vx vy vz radius\n1 1 1 1 0 0 0 0.5\n2 3 3 3 0 0 0 0.5\n"
+    (folder / "lattice" / "dump").write_text(frame.format(0) + frame.format(1), encoding="utf-8")
+    closed = DESCRIPTION.split("[periodic_x]")[0].replace("lattice.data", "dump").replace('contacts = ["lattice.fstat"]', "step_s = 1.0")
+    (folder / "lattice" / "closed.toml").write_text(closed, encoding="utf-8")
+    drumlin("import", folder / "lattice" / "closed.toml", "-o", folder / "closed")
+    for axis, height in (("y", "z"), ("x", "z"), ("z", "y")):
+        _, error = drumlin("measure", folder / "closed", "--along", axis, code=2)
+        require(f"period_{height}: is above 0, along the height of the view (allowed: a box that is periodic across layers is not measured)" in error, error)
 
 
 def table(file):
@@ -97,6 +111,7 @@ def main():
         for row, half in zip(space, table(run / "measured" / "space.csv")):
             for name in ("nu", "sigma_zz", "sigma_yy", "shear_rate", "coordination"):
                 require(math.isnan(row[name]) == math.isnan(half[name]) and not abs(row[name] - half[name]) > 1e-9, f"{name} of a slab: {half[name]}, {row[name]}")
+        require_no_layers_across_a_period(drumlin, folder)
         for words in (["--along", "z"], ["--slab", "3,1"], ["--slab", "0,9"], ["--parts", "voronoi"], ["--grains", "last"]):
             _, error = drumlin("measure", run, *words, "--overwrite", code=2)
         drumlin("plot", run, code=2)

@@ -98,6 +98,24 @@ def test_mercury_tells_contacts_from_both_sides_and_walls_turned():
     assert len(walls[0]["grains/x"]) == 2
 
 
+def test_mercury_names_images_across_a_period_by_ids_beyond_the_grains(tmp_path):
+    """Grain 0 at one end of the box touches 1 at the other, and an image of the fixed grain 2. As BaseInteraction::writeToFStat tells it: each contact of two
+    grains that move with an image from each side; that of an image that moves on a fixed grain, too, which says nothing new."""
+    grain = "{} 0.5 {} 0 0 0 {} 0 0 0 0 0 0 {}\n".format
+    (tmp_path / "a.data").write_text("3 0 0 0 0 10 1 3\n" + grain(0.3, 1.0, 0.5, 0) + grain(9.5, 1.0, 0.4, 0) + grain(9.7, 0.4, 0.4, 1), encoding="utf-8")
+    contact = "0 {} {} 0 0 0 {} 0 {} 0 {} 0 {} 0 0 0\n".format
+    off = np.sqrt(0.36 + 0.36)
+    heading = "# 0 1\n# 0 0 0 10 1 3\n# 0.5 0.4 0 0 0 0\n"
+    lines = contact(0, 3, 0.1, 2, 1, 0) + contact(1, 4, 0.1, 2, -1, 0) + contact(0, 5, 0.9 - off, 3, 0.6 / off, 0.6 / off)
+    (tmp_path / "a.fstat").write_text(heading + lines + contact(4, 2, 0.9 - off, 3, 0.6 / off, 0.6 / off), encoding="utf-8")
+    periods = {"tables": {"periodic_x": {"length_m": 10.0}}}
+    _, (s,) = imported(["a.data"], ["a.fstat"], tmp_path, wall_types=[1], **periods)
+    assert (s["contacts/i"].tolist(), s["contacts/j"].tolist()) == ([0, 0], [1, -1])
+    np.testing.assert_allclose([s["contacts/force_" + axis] for axis in "xyz"], [[2, 3 * 0.6 / off], [0, 0], [0, 3 * 0.6 / off]], rtol=1e-9)
+    assert "there is no grain 3, nor does a grain lie where its image would (allowed: periodic_x and periodic_y" in refusal(
+        ["a.data"], ["a.fstat"], folder=tmp_path, wall_types=[1])
+
+
 def test_yade_writes_text_and_vtk_with_the_forces_that_it_adds_up():
     pytest.importorskip("vtk")
     text = {"columns": ["v_x", "v_y", "v_z", "id"], "interval_s": 1e-3}

@@ -6,6 +6,8 @@ from .grains import nearest_image
 from .text import shown
 
 NORMAL_TOLERANCE = 1e-3  # of the length of a unit normal in a table of few digits
+PLACE_TOLERANCE = 0.02  # of a radius, of an image beside its grain
+NEIGHBOURS = 8  # of a contact, among which its grain is
 
 
 def _ids(frame, name, scales):
@@ -27,10 +29,47 @@ def _force_of(frame, scales):
     return np.array([frame.values(name, scales) for name in (components if by_components else ("f_n", "f_t"))]), by_components
 
 
-def _ends(frame, bodies, scales, force):
+def _bodies_behind(s, frame, grains_frame, bodies, scales, first, second):
+    """Images across a period, whose ids are beyond those of all grains, by the ids of their grains: (first, second, whether a row tells a new contact). The
+    image lies along the normal, as far as the radii and the overlap say. Told from both sides are those of two grains that move, each beside the image of
+    the other."""
+    last = bodies.id.max()
+    told = first <= last
+    rows = np.flatnonzero(told & (second > last))
+    if "overlap" not in frame.columns or (told.all() and not len(rows)):
+        return first, second, np.ones(len(first), bool)
+    from scipy.spatial import cKDTree  # for MercuryDPM alone
+
+    by_id = np.argsort(bodies.id)
+    center = np.array([grains_frame.values(axis, scales) for axis in scales.axes])[:, by_id]
+    radius = grains_frame.values("radius", scales)[by_id]
+    i, overlap = np.searchsorted(bodies.id[by_id], first[rows]), frame.values("overlap", scales)[rows]
+    normal = np.array([frame.values("normal_" + axis, scales)[rows] for axis in scales.axes])
+    period = np.array([[s.get("period_" + axis, 0.0)] for axis in scales.axes])
+
+    def in_box(places):
+        inside = np.mod(places, period, where=period > 0, out=places.copy())
+        return np.where((period > 0) & (inside >= period), 0.0, inside).T
+
+    tree = cKDTree(in_box(center), boxsize=period[:, 0])
+    near = np.array(tree.query(in_box(center[:, i] - normal * radius[i]), k=range(1, min(NEIGHBOURS, len(radius)) + 1))[1]).reshape(len(rows), -1)
+    image = (center[:, i] - normal * (radius[i] - overlap))[:, :, None] - normal[:, :, None] * radius[near]
+    off = np.sqrt((nearest_image(s, scales.axes, image - center[:, near]) ** 2).sum(axis=0))
+    best, row = off.argmin(axis=1), np.arange(len(rows))
+    frame.require(off[row, best] <= PLACE_TOLERANCE * radius[i], "j", lambda c: f"there is no grain {second[rows[c]]}, nor does a grain lie where its image would",
+                  "periodic_x and periodic_y of the description as in the other program", rows)
+    j = near[row, best]
+    second = second.copy()
+    second[rows] = bodies.id[by_id[j]]
+    pair, reverse = i * len(radius) + j, j * len(radius) + i
+    told[rows[(i > j) & np.isin(pair, reverse)]] = False
+    return first, second, told
+
+
+def _ends(s, frame, grains_frame, bodies, scales, force):
     """(rows that carry a force between a grain and something, its grain i and other body j by their ids, sign of the force, whether j is a wall, whether
     that is an atom). A contact that is told from the side of the wall is turned."""
-    first, second = _ids(frame, "i", scales), _ids(frame, "j", scales)
+    first, second, told = _bodies_behind(s, frame, grains_frame, bodies, scales, _ids(frame, "i", scales), _ids(frame, "j", scales))
     wall_ids = bodies.id[bodies.walls]
 
     def is_wall(ids):
@@ -38,7 +77,7 @@ def _ends(frame, bodies, scales, force):
 
     from_wall = is_wall(first)
     first, second = np.where(from_wall, second, first), np.where(from_wall, first, second)
-    rows = np.flatnonzero(~is_wall(first) & (force != 0).any(axis=0))  # not those of a wall on a wall
+    rows = np.flatnonzero(told & ~is_wall(first) & (force != 0).any(axis=0))  # not those of a wall on a wall
     first, second, sign = first[rows], second[rows], np.where(from_wall[rows], -1.0, 1.0)
     frame.require(first != second, "i, j", lambda c: f"grain {first[c]} touches itself", rows=rows)
     return rows, first, second, sign, is_wall(second), is_wall(second) & (second >= 0)
@@ -66,7 +105,7 @@ def add_contacts(s, frame, grains_frame, bodies, scales):
     """The contacts that carry a force, to a snapshot whose grains are there. A negative j is a wall. The force is f_n, f_t or f_x, f_y, f_z, on i; the
     normal that of the frame, else along the centres, at the drum towards its axis."""
     force, by_components = _force_of(frame, scales)
-    rows, first, second, sign, at_wall, of_atom = _ends(frame, bodies, scales, force)
+    rows, first, second, sign, at_wall, of_atom = _ends(s, frame, grains_frame, bodies, scales, force)
     force = force[:, rows]
     (i, known), (j, j_known) = _places(bodies.ids, first), _places(bodies.ids, second)
     frame.require(known, "i, j", lambda c: f"there is no grain {first[c]}", rows=rows)

@@ -48,7 +48,8 @@ class Data(TextFrames):
 
 class Contacts(TextFrames):
     """.fstat: three lines with # above the contacts of each instant. A contact of two grains that move is told from both sides, one with a wall or a fixed
-    grain from one; at a wall normal and tangent point into it (BaseInteraction::writeToFStat)."""
+    grain from one; at a wall normal and tangent point into it (BaseInteraction::writeToFStat). Images of grains across a period have ids beyond those of
+    .data (contacts.py finds the grains)."""
 
     def __init__(self, files, source):
         super().__init__(files)
@@ -56,7 +57,7 @@ class Contacts(TextFrames):
         self.force = force_unit(source | {"force_on": "first"}, self.units)
 
     def frames_of(self, text):
-        columns = Columns(CONTACT, [k for k, name in enumerate(CONTACT) if k in (1, 2) or k >= 8], "spaced", comments=False)
+        columns = Columns(CONTACT, [k for k, name in enumerate(CONTACT) if k in (1, 2, 6) or k >= 8], "spaced", comments=False)
         while (line := text.next_line()) is not None:
             self.first_line = text.number
             time = self._heading(text, line)
@@ -82,8 +83,8 @@ class Contacts(TextFrames):
         return time * self.units.time_unit_s
 
     def _frame(self, text, time, lines, numbers):
-        i, j, f_n, f_t = numbers[:4]
-        normal, tangent = np.array(numbers[4:7]), np.array(numbers[7:10])
+        i, j, overlap, f_n, f_t = numbers[:5]
+        normal, tangent = np.array(numbers[5:8]), np.array(numbers[8:11])
         turned = np.where(j < 0, -1.0, 1.0)
         force = turned * self.force * (f_n * normal + f_t * tangent)
         # From the other side a second time: i and j beyond each other's place.
@@ -91,7 +92,7 @@ class Contacts(TextFrames):
         again = (i > j) & (j >= 0) & np.isin(i * most + j, (j * most + i)[(i < j)])
         kept = ~again
         frame = Frame(text.path, lines[kept], self.first_line, {}, ", ".join(CONTACT), {}, time, in_file_axes=True)
-        frame.columns = {"i": Column(i[kept], "number"), "j": Column(j[kept], "number")}
+        frame.columns = {"i": Column(i[kept], "number"), "j": Column(j[kept], "number"), "overlap": Column(self.units.of("length") * overlap[kept], "length")}
         for k, axis in enumerate("xyz"):
             if axis in self.axes:
                 frame.columns["normal_" + axis] = Column((turned * normal[k])[kept], "number")
