@@ -1,7 +1,8 @@
 """Spheres down a rough incline beside published laws: numbers of the core of each measured run, and their picture.
 
-usage: sphere_incline.py RUN... -o FILE.json [--picture FILE.png]
+usage: sphere_incline.py RUN... -o FILE.json [--law LAW.json] [--flows FLOWRUN...] [--picture FILE.png]
 RUN: imported spheres with a free surface, measured by `drumlin measure` (space.csv). The core is 3 d off the base and the surface.
+LAW.json: what `drumlin calibrate RUN... --law jop` leaves beside the law. FLOWRUN: the incline of that law at the slope of a run, z = 0 the surface of both.
 """
 
 import argparse
@@ -52,11 +53,36 @@ def row_of(run):
     return row, {"z": z, "v_x": layers["v_x"], "mu": layers["mu"], "I": layers["I"], "core": core}
 
 
-def draw(rows, curves, picture):
+def law_of(record):
+    """The form that was chosen: coefficients of Jop's form (mu_s, mu_2 - mu_s, I_0), and between what they lie in 99 % of the draws."""
+    form = next(form for form in script.content_of(record)["forms"] if form["chosen"])
+    return {name: form[name] for name in ("form", "coefficients", "ranges", "rms_misfit", "points")} | {"curve": form["curve"]}
+
+
+def beside_flow(run, row, curve):
+    """The flow at the slope of a row beside its spheres: speeds at the surface, and the rms of the difference over the core as a share of that of the spheres;
+    without what both have at the lowest layer of the core: their shapes."""
+    flow = script.content_of(run / "flow.json")
+    _, columns = style.read_profiles(run / "profiles.csv")
+    z, core = curve["z"], curve["core"]
+    computed = np.interp(z, np.asarray(columns["z"]), np.asarray(columns["v_x"]))
+    surface = float(np.interp(0, z, curve["v_x"]))
+    off = computed - curve["v_x"]
+    rms = {name: float(np.sqrt(np.mean((off[core] - base) ** 2)) / surface) for name, base in (("rms", 0.0), ("rms_of_shape", off[core][0]))}
+    return {"run": run.name, "surface_speed": flow["surface_speed"], "surface_speed_of_spheres": surface} | rms, (z, computed)
+
+
+def draw(rows, curves, law, flows, picture):
     style.use_style()
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4.2))
     number = np.geomspace(0.01, 1, 100)
     left.plot(number, jop(number), color="0.5", label="Jop et al. 2006, glass beads")
+    if law:
+        curve = law["curve"]
+        left.fill_between(curve["I"], curve["low"], curve["high"], color="0.85")
+        left.plot(curve["I"], curve["value"], color="black", label="fitted in Jop's form")
+    for z, computed in flows:
+        right.plot(computed, z, "--", color="0.4", linewidth=1)
     for row, curve in zip(rows, curves):
         name = f"{row['theta_deg']:.0f} deg"
         points = left.plot(curve["I"][curve["core"]], curve["mu"][curve["core"]], ".", alpha=0.5)
@@ -73,13 +99,22 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("runs", nargs="+", type=pathlib.Path)
     parser.add_argument("-o", dest="output", required=True, type=pathlib.Path)
+    parser.add_argument("--law", type=pathlib.Path)
+    parser.add_argument("--flows", nargs="*", default=[], type=pathlib.Path)
     parser.add_argument("--picture", type=pathlib.Path)
     options = parser.parse_args()
-    found = [row_of(run) for run in options.runs]
-    rows = sorted((row for row, _ in found), key=lambda row: row["theta_deg"])
-    whole_file.write_text(options.output, json.dumps({"format": "drumlin-sphere-incline-1", "runs": rows}, indent=1) + "\n")
+    found = sorted((row_of(run) for run in options.runs), key=lambda of: of[0]["theta_deg"])
+    law, flows = law_of(options.law) if options.law else None, []
+    for flow in options.flows:
+        slope = script.content_of(flow / "flow.json")["theta_deg"]
+        row, curve = min(found, key=lambda of: abs(of[0]["theta_deg"] - slope))
+        row["flow"], lines = beside_flow(flow, row, curve)
+        flows.append(lines)
+    rows = [row for row, _ in found]
+    record = {"format": "drumlin-sphere-incline-1", "runs": rows} | ({"law": {name: law[name] for name in law if name != "curve"}} if law else {})
+    whole_file.write_text(options.output, json.dumps(record, indent=1) + "\n")
     if options.picture:
-        draw([row for row, _ in found], [curve for _, curve in found], options.picture)
+        draw(rows, [curve for _, curve in found], law, flows, options.picture)
 
 
 if __name__ == "__main__":
