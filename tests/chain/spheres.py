@@ -104,10 +104,13 @@ def main():
         with h5py.File(run / "measured" / "maps.h5") as maps:
             # The kernel sums over lattice planes 1 d apart, as wide as they are: it is uniform away from top and bottom.
             row = abs(maps["z"][:] - space[LEVELS // 2]["z"]).argmin()
-            nu, zz = (maps[f"fields/{name}"][row] for name in ("nu", "sigma_zz"))
-            require(abs(nu - math.pi / 6).max() < 1e-6 and abs(zz - 3).max() < 1e-2, f"{nu} {zz}")
+            nu, zz, yy, xy, v_y = (maps[f"fields/{name}"][row] for name in ("nu", "sigma_zz", "sigma_yy", "sigma_xy", "v_y"))
+            require(abs(nu - math.pi / 6).max() < 1e-6 and abs(zz - 3).max() < 1e-2 and abs(yy - 2).max() < 1e-2, f"{nu} {zz} {yy}")
+            require(abs(xy).max() < 1e-9 and abs(v_y).max() < 1e-9, f"{xy} {v_y}")
         # Through a slab of two rows.
-        drumlin("measure", run, "--parts", "none", "--slab", "1,3", "--overwrite")
+        drumlin("measure", run, "--parts", "maps", "--slab", "1,3", "--overwrite")
+        with h5py.File(run / "measured" / "maps.h5") as maps:
+            require(abs(maps["fields/sigma_yy"][row] - yy).max() < 1e-9, "sigma_yy of a slab")
         for row, half in zip(space, table(run / "measured" / "space.csv")):
             for name in ("nu", "sigma_zz", "sigma_yy", "shear_rate", "coordination"):
                 require(math.isnan(row[name]) == math.isnan(half[name]) and not abs(row[name] - half[name]) > 1e-9, f"{name} of a slab: {half[name]}, {row[name]}")

@@ -142,11 +142,11 @@ TEST(Spheres, UniformShearIsNoFluctuation) {
 TEST(Spheres, BinsAddUpToTheWhole) {
   const double side = 12, depth = 5;
   const Snapshot s = random_spheres(side, depth);
-  double volume = 0, momentum = 0;
+  double volume = 0, momentum = 0, momentum_y = 0;
   Tensor<3> force_branch{};
   for (std::size_t i = 0; i < s.x.size(); ++i) {
     const double v = 4 * pi / 3 * std::pow(s.radius[i], 3);
-    volume += v, momentum += v * s.v_x[i];
+    volume += v, momentum += v * s.v_x[i], momentum_y += v * s.spheres->v_y[i];
   }
   for (const SphereContact& c : s.spheres->contacts) {
     const double reach =
@@ -179,13 +179,19 @@ TEST(Spheres, BinsAddUpToTheWhole) {
   MapSums maps = empty_sums(graining);
   add_snapshot(graining, s, seen, maps);
   double solid = 0, moved = 0, trace = 0;
+  AcrossNode across;
   for (std::size_t node = 0; node < maps.nodes.size(); ++node) {
+    add_times(0.25, maps.across[node], across);
     solid += maps.nodes[node].solid / 4, moved += maps.nodes[node].motion.first[0] / 4;
     trace += (maps.nodes[node].force_branch[0][0] + maps.nodes[node].force_branch[1][1]) / 4;
   }
   EXPECT_NEAR(solid, volume / depth, exact * volume);
   EXPECT_NEAR(moved, momentum / depth, exact * volume);
   EXPECT_NEAR(trace, (force_branch[0][0] + force_branch[1][1]) / depth, 1e-10);
+  EXPECT_NEAR(across.motion.first[2], momentum_y / depth, exact * volume);
+  EXPECT_NEAR(across.yy, force_branch[2][2] / depth, 1e-10);
+  EXPECT_NEAR(across.xy, force_branch[0][2] / depth, 1e-10);
+  EXPECT_NEAR(across.yz, force_branch[2][1] / depth, 1e-10);
 }
 
 TEST(Spheres, TheViewHasTheStressOfSpace) {

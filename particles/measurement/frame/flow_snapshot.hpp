@@ -77,14 +77,16 @@ inline HalfBranch<2> FlowSnapshot::half_branch(std::size_t side) const {
           contact.j<0, depth> 0 ? radius[grain] : 0};
 }
 
-/// Numbers of snapshots, and of those that know spins, contacts and densities of their own.
+/// Numbers of snapshots, of those that know spins, contacts and densities of their own, and of those of
+/// spheres.
 struct KnownSnapshots {
-  double count = 0, spin = 0, contacts = 0, densities = 0;
+  double count = 0, spin = 0, contacts = 0, densities = 0, spheres = 0;
   void add(const FlowSnapshot& snapshot) {
     count += 1;
     spin += snapshot.spin.empty() ? 0 : 1;
     contacts += snapshot.contacts_known ? 1 : 0;
     densities += snapshot.density.empty() ? 0 : 1;
+    spheres += snapshot.depth > 0 ? 1 : 0;
   }
 };
 

@@ -5,9 +5,9 @@
 
 #include "coupling/core/basics/no_value.hpp"
 #include "coupling/core/results/plane_invariants.hpp"
+#include "coupling/core/results/spline_kernel.hpp"
 #include "particles/measurement/frame/intervals.hpp"
 #include "particles/measurement/maps/field_values.hpp"
-#include "coupling/core/results/spline_kernel.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -30,6 +30,7 @@ class RowMaker {
     const std::size_t across = NodeTiles<MapNode>::tiles_along(columns);
     for (std::size_t t = 0; t < across; ++t) {
       batches_.read(tile_row * across + t, tile_);
+      if (snapshots_.whole.spheres > 0) batches_.read(tile_row * across + t, across_);
       const std::size_t end = std::min(edge, columns - t * edge);
       for (std::size_t row = 0; row < rows_.rows; ++row)
         for (std::size_t column = 0; column < end; ++column)
@@ -63,15 +64,28 @@ class RowMaker {
     LeaveOneOut<MapValues> seen, displaced;
   };
 
+  /// The sums of one node, of the tiles of all batches.
+  template <class Node>
+  static LeaveOneOut<Node> node_of(const std::vector<std::vector<Node>>& tile, std::size_t place) {
+    std::vector<Node> batches(tile.size());
+    for (std::size_t b = 0; b < tile.size(); ++b)
+      if (!tile[b].empty()) batches[b] = tile[b][place];
+    return leave_one_out(batches);
+  }
+
   NodeValues values_of(std::size_t place, double inside) const {
-    std::vector<MapNode> batches(tile_.size());
-    for (std::size_t b = 0; b < tile_.size(); ++b)
-      if (!tile_[b].empty()) batches[b] = tile_[b][place];
-    const LeaveOneOut<MapNode> sums = leave_one_out(batches);
+    const LeaveOneOut<MapNode> sums = node_of(tile_, place);
     NodeValues values;
     values.seen = each_of(
         [&](const MapNode& node, const MapSums::Snapshots& all) { return values_at(node, all, inside); },
         sums, snapshots_);
+    if (snapshots_.whole.spheres > 0)
+      values.seen = each_of(
+          [&](MapValues seen, const AcrossNode& node, const MapSums::Snapshots& all) {
+            set_across(node, all, inside, seen);
+            return seen;
+          },
+          values.seen, node_of(across_, place), snapshots_);
     const MapValues& whole = values.seen.whole;
     if (!std::isfinite(whole.v_x)) return values;
     const PlaneMatrix pressure{whole.sigma_xx, -whole.sigma_xz, -whole.sigma_zx, whole.sigma_zz};
@@ -124,6 +138,7 @@ class RowMaker {
   LeaveOneOut<MapSums::Snapshots> snapshots_;
   std::vector<MapQuantity> fields_;
   std::vector<std::vector<MapNode>> tile_;
+  std::vector<std::vector<AcrossNode>> across_;
   MapRows rows_;
 };
 

@@ -47,6 +47,11 @@ constexpr Row quantities[] = {{"nu", &MapValues::nu},
                               {"fabric_xx", &MapValues::fabric_xx},
                               {"fabric_zz", &MapValues::fabric_zz},
                               {"fabric_xz", &MapValues::fabric_xz},
+                              {"v_y", &MapValues::v_y, &Known::spheres},
+                              {"sigma_yy", &MapValues::sigma_yy, &Known::spheres},
+                              {"sigma_xy", &MapValues::sigma_xy, &Known::spheres},
+                              {"sigma_yz", &MapValues::sigma_yz, &Known::spheres},
+                              {"sigma_yy_kinetic", &MapValues::sigma_yy_kinetic, &Known::spheres},
                               {"wall_x", &MapValues::wall_x},
                               {"wall_z", &MapValues::wall_z},
                               {"residual_x", &MapValues::residual_x},
@@ -164,6 +169,23 @@ MapValues values_at(const MapNode& sums, const MapSums::Snapshots& snapshots, do
   set_fields(m, inside, f);
   set_balance(m, share * snapshots.gravity_x, share * snapshots.gravity_z, f);
   return f;
+}
+
+void set_across(const AcrossNode& sums, const MapSums::Snapshots& snapshots, double inside,
+                MapValues& values) {
+  if (!std::isfinite(values.v_x)) return;  // too few grains
+  const double per = 1 / (snapshots.count * inside);
+  const double density = per * sums.motion.weight;
+  const bool known = snapshots.contacts == snapshots.count;
+  const auto stress = [&](double contact, std::size_t a, std::size_t b) {
+    return known ? per * contact + density * sums.motion.covariance(a, b) : MapValues::none;
+  };
+  values.v_y = sums.motion.mean(2);
+  values.sigma_yy = stress(sums.yy, 2, 2);
+  values.sigma_xy = stress(sums.xy, 0, 2);
+  // As sigma_xz, the traction of the upper side on the lower one.
+  values.sigma_yz = -stress(sums.yz, 1, 2);
+  values.sigma_yy_kinetic = density * sums.motion.covariance(2, 2);
 }
 
 MapValues displaced_values(const MapNode& sums, const PlaneMatrix& pressure) {

@@ -23,6 +23,7 @@ struct MapValues : PlaneInvariants, SharedFields {
   double sigma_xx = none, sigma_zz = none, sigma_xz = none, sigma_zx = none;
   double sigma_xx_kinetic = none, sigma_zz_kinetic = none, sigma_xz_kinetic = none;
   double fabric_xx = none, fabric_zz = none, fabric_xz = none;
+  double v_y = none, sigma_yy = none, sigma_xy = none, sigma_yz = none, sigma_yy_kinetic = none;
   double wall_x = none, wall_z = none;
   double residual_x = none, residual_z = none, residual_x_contact = none, residual_z_contact = none;
   double inertia_x = none, inertia_z = none;
@@ -41,6 +42,10 @@ std::vector<MapQuantity> known_fields(const MapSums::Snapshots& all);
 /// `inside`: share of the kernel within the container. NaN, nu and number_density apart, where nu <
 /// least_map_nu.
 MapValues values_at(const MapNode& sums, const MapSums::Snapshots& snapshots, double inside);
+
+/// What spheres add: the components along y.
+void set_across(const AcrossNode& sums, const MapSums::Snapshots& snapshots, double inside,
+                MapValues& values);
 
 /// What motion there is by displacements, alone; `pressure` stands in I and in the angle of the axes. NaN
 /// without a displacement.

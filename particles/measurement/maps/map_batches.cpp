@@ -20,6 +20,28 @@ std::size_t rows_with_grains(const CoarseGraining& graining, const NodeTiles<Map
   return rows;
 }
 
+template <class Node>
+std::vector<std::uint64_t> put_tiles(const NodeTiles<Node>& nodes, ScratchFile& file) {
+  std::vector<std::uint64_t> places;
+  places.reserve(nodes.tiles());
+  for (std::size_t t = 0; t < nodes.tiles(); ++t) {
+    const std::vector<Node>& tile = nodes.tile(t);
+    places.push_back(tile.empty() ? zeros : file.append(std::as_bytes(std::span(tile))));
+  }
+  return places;
+}
+
+template <class Node>
+void read_tile(std::size_t tile, const std::vector<std::vector<std::uint64_t>>& places,
+               const ScratchFile& file, std::vector<std::vector<Node>>& batches) {
+  batches.resize(places.size());
+  for (std::size_t b = 0; b < places.size(); ++b) {
+    const std::uint64_t place = places[b].empty() ? zeros : places[b][tile];
+    batches[b].resize(place == zeros ? 0 : NodeTiles<Node>::nodes_per_tile);
+    if (place != zeros) file.read(place, std::as_writable_bytes(std::span(batches[b])));
+  }
+}
+
 }  // namespace
 
 MapBatches::MapBatches(const CoarseGraining& graining, std::shared_ptr<ScratchFile> file)
@@ -28,26 +50,22 @@ MapBatches::MapBatches(const CoarseGraining& graining, std::shared_ptr<ScratchFi
 void MapBatches::put_away(const MapSums& sums) {
   snapshots_.push_back(sums.snapshots);
   rows_reached_ = std::max(rows_reached_, rows_with_grains(graining_, sums.nodes));
-  std::vector<std::uint64_t>& places = places_.emplace_back();
-  places.reserve(sums.nodes.tiles());
-  for (std::size_t t = 0; t < sums.nodes.tiles(); ++t) {
-    const std::vector<MapNode>& tile = sums.nodes.tile(t);
-    places.push_back(tile.empty() ? zeros : file_->append(std::as_bytes(std::span(tile))));
-  }
+  places_.push_back(put_tiles(sums.nodes, *file_));
+  across_.push_back(put_tiles(sums.across, *file_));
 }
 
 void MapBatches::read(std::size_t tile, std::vector<std::vector<MapNode>>& batches) const {
-  batches.resize(places_.size());
-  for (std::size_t b = 0; b < places_.size(); ++b) {
-    const std::uint64_t place = places_[b][tile];
-    batches[b].resize(place == zeros ? 0 : NodeTiles<MapNode>::nodes_per_tile);
-    if (place != zeros) file_->read(place, std::as_writable_bytes(std::span(batches[b])));
-  }
+  read_tile(tile, places_, *file_, batches);
+}
+
+void MapBatches::read(std::size_t tile, std::vector<std::vector<AcrossNode>>& batches) const {
+  read_tile(tile, across_, *file_, batches);
 }
 
 std::size_t MapBatches::bytes_in_memory() const {
   std::size_t bytes = 0;
-  for (const auto& places : places_) bytes += places.capacity() * sizeof(std::uint64_t);
+  for (const auto* of : {&places_, &across_})
+    for (const auto& places : *of) bytes += places.capacity() * sizeof(std::uint64_t);
   return bytes;
 }
 

@@ -46,7 +46,9 @@ void put_away(MapReading& reading) {
 
 }  // namespace
 
-std::size_t MapReading::bytes_in_memory() const { return sums.nodes.bytes() + batches->bytes_in_memory(); }
+std::size_t MapReading::bytes_in_memory() const {
+  return sums.nodes.bytes() + sums.across.bytes() + batches->bytes_in_memory();
+}
 
 MapReading begun_maps(const MeasurementFrame& place, double spacing, double width,
                       std::shared_ptr<ScratchFile> file) {

@@ -37,9 +37,16 @@ struct MapNode : Moments<2> {
   }
 };
 
+/// What a node of spheres knows besides: components along y, across the plane, per depth as all else.
+struct AcrossNode {
+  Spread<3> motion;               ///< velocities x, z, y of this instant, by the mass
+  double yy = 0, xy = 0, yz = 0;  ///< F_a b_b of contacts, as MapNode has them
+};
+
 /// Sums over some snapshots.
 struct MapSums {
   NodeTiles<MapNode> nodes;
+  NodeTiles<AcrossNode> across;  ///< of discs without tiles
   /// Gravity in the flow frame; pairs of snapshots that displacements were taken from, and the time between
   /// them.
   struct Snapshots : KnownSnapshots {

@@ -8,6 +8,7 @@
 #include "coupling/core/basics/inertial_number.hpp"
 #include "particles/measurement/frame/accumulate.hpp"
 #include "particles/measurement/frame/intervals.hpp"
+#include "particles/measurement/frame/sphere_branches.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -148,29 +149,8 @@ void add_snapshot(const LayerGrid& grid, const Snapshot& snapshot, const FlowSna
                                static_cast<double>(in_frame.coordination[i]),
                                in_frame.spin.empty() ? 0 : in_frame.spin[i]},
                 binning, sums.layers);
-  for (const SphereContact& contact : slab.contacts) {
-    const auto turned = [&](const std::array<double, 3>& v) {
-      const auto [along, up] = grid.frame.turned(v[X], v[Z]);
-      return Vector<3>{along, up, v[Y]};
-    };
-    const Vector<3> normal = turned(contact.normal), force = turned(contact.force);
-    for (const double sign : {1.0, -1.0}) {
-      const std::int32_t grain = sign > 0 ? contact.i : contact.j;
-      if (grain < 0 || !in_frame.shows(static_cast<std::size_t>(grain))) continue;
-      const auto g = static_cast<std::size_t>(grain);
-      HalfBranch<3> half{static_cast<std::uint32_t>(grain),
-                         {in_frame.x[g], in_frame.z[g], slab.y[g]},
-                         {},
-                         {},
-                         normal,
-                         contact.j < 0};
-      for (int a = 0; a < 3; ++a) {
-        half.toward[a] = -sign * in_frame.radius[g] * normal[a];
-        half.force[a] = sign * force[a];
-      }
-      add_branch(half, binning, sums.layers);
-    }
-  }
+  each_sphere_branch(grid.frame, snapshot, in_frame,
+                     [&](const HalfBranch<3>& half) { add_branch(half, binning, sums.layers); });
   sums.volume += grid.area.empty() ? 0 : grid.area.front() * slab.depth;
   sums.snapshots += 1;
   sums.with_contacts += snapshot.contacts_known ? 1 : 0;
