@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 
 #include "apps/json/json_file.hpp"
 #include "coupling/core/documents/json_numbers.hpp"
@@ -98,6 +99,9 @@ Json ill_posed_json(const FlowRequest& asked) {
 struct JsonKeys {
   Json& object;
   void value(const std::string& key, const auto& value, const KeySpec&) { object[key] = value; }
+  void value(const std::string& key, const std::optional<double>& value, const KeySpec&) {
+    if (value) object[key] = *value;
+  }
 };
 
 // The keys of rheology.toml.

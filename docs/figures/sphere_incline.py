@@ -49,7 +49,9 @@ def row_of(run):
     row["sigma_zz_over_weight"] = {"value": float((layers["sigma_zz"][core] / (weight[core] * down)).mean())}
     row["I_spread"] = float(layers["I"][core].std() / layers["I"][core].mean())
     row["mu_jop"] = jop(row["I"]["value"])
-    row["mu_over_tan_theta"] = row["mu"]["value"] / math.tan(math.radians(row["theta_deg"]))
+    tan = math.tan(math.radians(row["theta_deg"]))
+    row["I_jop"] = JOP[2] / ((JOP[1] - JOP[0]) / (tan - JOP[0]) - 1) if tan > JOP[0] else None
+    row["mu_over_tan_theta"] = row["mu"]["value"] / tan
     return row, {"z": z, "v_x": layers["v_x"], "mu": layers["mu"], "I": layers["I"], "core": core}
 
 
