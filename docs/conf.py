@@ -45,7 +45,7 @@ BELOW = {
     "theory/solvers": ["cookbook/contact-problems", "theory/impacts", "theory/energy", "theory/moving-cell"],
     "theory/rheology": ["theory/dilatancy", "theory/free-surface"],
     "theory/coarse-graining": ["theory/statistics"],
-    "results": ["results/paper", "results/continuum", "results/bed", "results/laws"],
+    "results": ["results/paper", "results/continuum", "results/bed", "results/laws", "results/spheres"],
     "verification": ["convergence", "hard-cases", "cost"],
     "formats/README": sorted(f"formats/{page.stem}" for page in (ROOT / "docs/formats").glob("[!R]*.md") if page.stem != "import"),
     "contributing": ["architecture", "decisions", "support", "changes"],
