@@ -191,7 +191,7 @@ std::optional<Geometry> geometry_of_layers(double gravity_x, double gravity_z) {
 Measurement measurement(const SnapshotSource& source, const MeasurementOptions& options,
                         std::span<const MeasurementPart> parts,
                         const std::function<void(std::size_t, std::size_t)>& progress) {
-  const Recording recording = steady_recording(source);
+  const Recording recording = steady_recording(source, options.since_s);
   std::size_t done = 0;
   const auto tick = [&] {
     if (progress) progress(++done, 2 * recording.count());

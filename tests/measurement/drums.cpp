@@ -132,12 +132,17 @@ TEST(Drums, OnlyTheLastMotionOfTheWallIsMeasured) {
   for (int s = 0; s < 9; ++s) {
     all.push_back(filled_drum(20, 2, 0.3, s < 4 ? 0.0 : 0.02));
     all.back().time = s;
+    all.back().scales.time_s = 0.5;
   }
   const Measurement result = measurement(testing::source_of(all), {});
   EXPECT_EQ(result.first_snapshot, 4u);
   EXPECT_EQ(result.place.snapshots, 5u);
   EXPECT_EQ(result.first_time(), 4);
   EXPECT_EQ(result.place.batches, 5u);
+  const double second = all.front().scales.time_s;
+  EXPECT_EQ(measurement(testing::source_of(all), {.since_s = 6 * second}).first_time(), 6);
+  EXPECT_EQ(measurement(testing::source_of(all), {.since_s = 1 * second}).first_time(), 4);
+  EXPECT_THROW(measurement(testing::source_of(all), {.since_s = 8.5 * second}), InputError);
 }
 
 TEST(Drums, NothingToMeasureIsSaid) {

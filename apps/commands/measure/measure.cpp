@@ -72,6 +72,7 @@ RunRecord finished_run(const ResultFolder& folder) {
 particles::MeasurementOptions settings_for(const MeasureOptions& options) {
   particles::MeasurementOptions settings;
   settings.scratch_folder = options.run();
+  settings.since_s = options.since;
   settings.position = options.position;
   settings.slice_width = options.slice_width;
   settings.layer_thickness = options.layer_thickness;

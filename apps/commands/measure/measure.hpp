@@ -8,6 +8,7 @@ struct MeasureOptions {
   std::vector<std::filesystem::path> runs;      ///< empty: a study; several: frames
   std::vector<std::filesystem::path> study;     ///< measured runs
   std::optional<std::filesystem::path> output;  ///< of a study or of frames
+  std::optional<double> since;                  ///< s; absent: all snapshots of the last motion
   double slice_width = 20;                      ///< d
   double layer_thickness = 1;                   ///< d
   double position = 0;                          ///< x of the slice, d
@@ -51,6 +52,8 @@ struct MeasureOptions {
     d.add("--nu-bulk", nu_bulk, "", above(0, 1),
           "Volume fraction of the bulk for --at; absent: of the fill at the origin")
         .needs("--at");
+    d.add("--since", since, "s", anything(), "Snapshots from this time on alone: the start is not steady")
+        .excludes("--at");
     d.add("--slice-width", slice_width, "d", above(0), "Width of the slice, across its middle");
     d.add("--layer-thickness", layer_thickness, "d", at_least(1e-3), "Thickness of the layers");
     d.add("--position", position, "d", anything(),

@@ -19,7 +19,8 @@ struct SlicesRequest {
 
 /// Lengths in d. What is not asked for is neither computed nor stored.
 struct MeasurementOptions {
-  double position = 0;      ///< x of the slice
+  std::optional<double> since_s = {};  ///< snapshots before are left out
+  double position = 0;                 ///< x of the slice
   double slice_width = 20;  ///< cut to a quarter of the surface's chord, or to the width of what there is
   double layer_thickness = 1;
   double slope_isoline = 0.4;       ///< volume fraction of the line that gives the slope
