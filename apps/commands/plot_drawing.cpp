@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "apps/json/drawn_walls.hpp"
 #include "apps/json/json_file.hpp"
 #include "apps/json/records.hpp"
 #include "apps/output/figures.hpp"
 #include "coupling/core/basics/errors.hpp"
-#include "particles/bodies/arc.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/io/snapshot_list.hpp"
 #include "particles/scene/materials.hpp"
@@ -27,41 +27,16 @@ constexpr std::size_t most_played = 200;  // of a player: 7183 grains stay below
 // Bytes of a player for each grain and each contact of a frame, as found on drums, chutes and silos.
 constexpr double bytes_per_grain = 4.6, bytes_per_contact = 1.7;
 
-struct ShapeJson {
-  Json operator()(const particles::Container& c) const {
-    return {{"shape", "container"}, {"x", c.center.x}, {"z", c.center.z}, {"radius", c.radius}};
-  }
-  Json operator()(const particles::Segment& s) const {
-    return {{"shape", "segment"}, {"x", {s.from.x, s.to.x}}, {"z", {s.from.z, s.to.z}}};
-  }
-  Json operator()(const particles::Arc& a) const {
-    constexpr int pieces = 48;  // of half a circle at most: chords leave it by 1/2000 of its radius
-    Json x = Json::array(), z = Json::array();
-    for (const particles::Point& p : points_of(a, pieces)) x.push_back(p.x), z.push_back(p.z);
-    return {{"shape", "arc"}, {"x", x}, {"z", z}};
-  }
-  Json operator()(const particles::FixedDisc& d) const {
-    return {{"shape", "disc"}, {"x", d.center.x}, {"z", d.center.z}, {"radius", d.radius}};
-  }
-  Json operator()(const particles::Opened&) const { return nullptr; }
-};
-
 /// What the script needs to draw one snapshot. Reading it here refuses damaged files before anything is
 /// drawn.
 Json frame_of(const particles::RunFolder& run, const fs::path& file) {
   const particles::Snapshot snapshot = particles::checked_snapshot(run, file);
-  Json shapes = Json::array();
-  for (const particles::PlacedShape& placed : particles::shapes_at(run, snapshot)) {
-    if (is_open(placed.shape)) continue;
-    shapes.push_back(std::visit(ShapeJson{}, placed.shape));
-    shapes.back()["angle"] = placed.angle;
-  }
   return {{"file", file.string()},
           {"number", particles::snapshot_number(file)},
           {"time_s", snapshot.time * run.scales.time_s},
           {"grains", snapshot.x.size()},
           {"contacts", snapshot.contacts.size()},
-          {"walls", shapes}};
+          {"walls", drawn_walls(particles::shapes_at(run, snapshot))}};
 }
 
 /// Every `every`-th snapshot, the last among them; 0: as many as `most` leaves.
@@ -141,7 +116,7 @@ Json drawing_of(const particles::RunFolder& run, const Json& report, const PlotO
                {"tolerance", run.scene.solver.tolerance},
                {"penetration_tolerance", run.scene.solver.penetration_tolerance},
                {"stages", stages_of(run.scene)},
-               {"period", nullptr},
+               {"period", drawn_period(run.scene, run.scales)},
                {"snapshot", nullptr},
                {"color", options.color.empty() ? Json(nullptr) : Json(options.color)},
                {"window", options.window.empty() ? Json(nullptr) : Json(options.window)},
@@ -151,9 +126,6 @@ Json drawing_of(const particles::RunFolder& run, const Json& report, const PlotO
                {"frames", Json::array()}};
   if (fs::exists(run.folder / "energy.csv"))
     drawing["energy"] = checked_file(run.files, "energy.csv").string();
-  if (const auto& period = run.scene.periodic_x)
-    drawing["period"] = {period->x_min_mm * 1e-3 / run.scales.length_m,
-                         period->x_max_mm * 1e-3 / run.scales.length_m};
   const bool named = options.snapshot != "last";
   if (named || !run.snapshots.empty())
     drawing["snapshot"] = frame_of(run, particles::chosen_snapshot(run, options.snapshot));

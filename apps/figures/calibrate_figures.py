@@ -166,7 +166,7 @@ def over_inertial_number(axes, record):
 def main():
     record = script.content_of(sys.argv[1])
     style.use_style()
-    parts = [(draw_law, style.title_of("Friction law", record["reduced"])), (draw_rest, "Residual")]
+    parts = [(draw_law, "Friction law"), (draw_rest, "Residual")]
     if record["turn"] is not None and "axis_angle_deg" in record["points"][0]:
         parts.append((draw_misalignment, "Non-coaxiality angle"))
     further = [panel for panels_of, key in ((memory_panels, "memory"), (nonlocal_panels, "nonlocal")) if key in record for panel in panels_of(record[key])]

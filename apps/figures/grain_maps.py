@@ -234,7 +234,7 @@ class View:
 
     def add_grains(self, axes, grains, **colours):
         # A rim of a twentieth of a grain parts neighbours of one colour.
-        return style.discs(axes, grains.x, grains.z, grains.radius, linewidths=min(0.05 * self.inches * 72, 0.8), **colours)
+        return style.discs(axes, grains.x, grains.z, grains.radius, **({"linewidths": min(0.05 * self.inches * 72, 0.8)} | colours))
 
 
 def arrow_of(axes, gravity):

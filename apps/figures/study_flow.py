@@ -7,7 +7,7 @@ import matplotlib.pyplot as plt
 import style
 from drum_maps import read_grains
 from style import FIT
-from study_panels import (depth_panel, draw, draw_logarithmic, limits_of, lowest_shown, none_if_nan, over_flow_rate, speed_legend)
+from study_panels import (depth_panel, draw, draw_logarithmic, limits_of, lowest_shown, none_if_nan, over_flow_rate, speed_legend, speed_marks)
 from study_runs import WALL_MARGIN, color_of, label_of, marker_of, shown
 
 PAPER = {"color": style.PAPER, "marker": "x", "markersize": 7, "markeredgewidth": 1.6, "linestyle": "none"}
@@ -240,7 +240,8 @@ def depth_and_friction(study):
     if study.is_papers:
         right.plot(study.paper_column("Q"), [math.tan(math.radians(t)) for t in study.paper_column("theta_deg")],
                    label="paper", **PAPER)
-    right.legend(loc="upper left")
+    right.add_artist(right.legend(loc="upper left"))
+    right.legend(handles=speed_marks(right, study), loc="lower right", ncol=2)
     return (figure, "Fig. 6: depth of the flowing layer and effective friction over Q",
             "H = 3 sqrt(Q); mu_eff = 0.31 + 1.9e-3 Q.",
             f"H = c sqrt(Q) with c = {shown(c)}, with a free power Q^p p = {shown(power)}; mu_eff = {shown(c0)} + ({shown(c1)}) Q "

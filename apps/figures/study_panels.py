@@ -80,8 +80,12 @@ def none_if_nan(value):
     return value if math.isfinite(value) else None
 
 
+def speed_marks(axes, study):
+    """The marks of the speeds for a legend, without drawing anything."""
+    return [axes.plot([], [], marker_of(run.rpm), color=color_of(study, run.rpm), linestyle="none", label=label_of(run))[0] for run in study.first_runs()]
+
+
 def speed_legend(axes, study, **options):
-    """The marks of the speeds, without drawing anything."""
-    for run in study.first_runs():
-        axes.plot([], [], marker_of(run.rpm), color=color_of(study, run.rpm), linestyle="none", label=label_of(run))
+    """Of the marks of the speeds, and of what was drawn with a label."""
+    speed_marks(axes, study)
     axes.legend(**options)

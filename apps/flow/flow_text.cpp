@@ -69,7 +69,8 @@ std::string neglected_text(const FinishedFlow& flow) {
   add(effects.moving_surface.has_value(),
       fmt::format("a moving surface, {:.2g} d from the level one (rms)", rest.surface_height_rms));
   add(effects.wall_slip.has_value(),
-      fmt::format("slip at the wall, of which {:.0f} % needs friction above 0.95", 100 * rest.wall_friction));
+      fmt::format("slip at the wall, along which friction of 0.95 holds {:.0f} %",
+                  100 * (1 - rest.wall_friction)));
   if (rest.nonlocal)
     add(effects.nonlocal.has_value(),
         fmt::format("fluidity that spreads over 1 d, {:.2g} (rms of its ln where it flows)", *rest.nonlocal));

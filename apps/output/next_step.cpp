@@ -19,7 +19,8 @@ struct Row {
 };
 
 constexpr std::string_view ways_of_open =
-    "drumlin pair {0}/scene.toml --run {0} --law LAW -o PAIR, drumlin history {0}, or drumlin report {0}";
+    "drumlin pair {0}/scene.toml --run {0} --law LAW -o PAIR (LAW: of drumlin law), drumlin history {0}, or "
+    "drumlin report {0}";
 constexpr auto in_drum = Flowing::drum;
 constexpr auto in_layers = Flowing::layers;
 constexpr auto in_open = Flowing::open;
@@ -37,6 +38,9 @@ const Row next_steps[] = {
      "let it flow (a steeper slope, a faster wall, an open slot), run the scene again; drumlin report {0} "
      "shows what there is"},
     {"measure", in_open, Verdict::other_program, "drumlin history {0}, or drumlin plot {0}"},
+    {"measure", in_open, Verdict::unsteady,
+     "drumlin measure {0} --since SECONDS --overwrite leaves the start out; drumlin pair {0}/scene.toml "
+     "--run {0} --law LAW -o PAIR, or drumlin report {0}"},
     {"measure", in_open, always, ways_of_open},
     {"measure", always, Verdict::unsteady,
      "drumlin run {0}/scene.toml -o {0} --extend {1:.6g}, then drumlin measure {0} --overwrite; or drumlin "
@@ -44,9 +48,8 @@ const Row next_steps[] = {
     {"measure", always, Verdict::other_program,
      "drumlin calibrate {0} --accept-unsteady -o rheology.toml, or drumlin report {0}"},
     {"measure", in_layers, Verdict::one_rate,
-     "drumlin pair {0}/scene.toml --run {0} --law LAW -o PAIR; one I makes no law: drumlin calibrate {0} "
-     "RUN2 RUN3 -o "
-     "rheology.toml with runs at other rates"},
+     "drumlin pair {0}/scene.toml --run {0} --law LAW -o PAIR (LAW: of drumlin law); one I makes no law: "
+     "drumlin calibrate {0} RUN2 RUN3 -o rheology.toml with runs at other rates"},
     {"measure", always, always, "drumlin calibrate {0} -o rheology.toml, or drumlin report {0}"},
     {"calibrate", always, always,
      "drumlin new {2}-flow -o flow.toml, then drumlin flow flow.toml --rheology {0} -o FLOWRUN"},

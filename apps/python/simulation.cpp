@@ -10,11 +10,13 @@
 #include <numbers>
 #include <optional>
 
+#include "apps/json/drawn_walls.hpp"
 #include "apps/python/bindings.hpp"
 #include "apps/python/others_run.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "particles/io/checkpoint_file.hpp"
 #include "particles/io/grains_of_run.hpp"
+#include "particles/io/run_folder.hpp"
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "particles/stepping/run_through.hpp"
@@ -45,6 +47,26 @@ py::array owned(std::vector<T>&& values) {
   const auto* numbers = storage.get();
   const py::capsule owner(storage.release(), [](void* data) { delete static_cast<std::vector<T>*>(data); });
   return read_only(py::array_t<T>(static_cast<py::ssize_t>(numbers->size()), numbers->data(), owner));
+}
+
+std::string drawn_text(const nlohmann::ordered_json& walls, const nlohmann::ordered_json& period) {
+  return nlohmann::ordered_json{{"walls", walls}, {"period", period}}.dump();
+}
+
+/// Of a snapshot in the folder of its run; elsewhere it knows of a circle alone.
+std::string drawn_of_snapshot(const std::string& file) {
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path().parent_path();
+  if (std::filesystem::exists(folder / "scene.toml")) {
+    const particles::RunFolder run = particles::read_run_folder(folder);
+    return drawn_text(apps::drawn_walls(particles::shapes_at(run, particles::read_snapshot(file))),
+                      apps::drawn_period(run.scene, run.scales));
+  }
+  const particles::Snapshot s = particles::read_snapshot(file);
+  std::vector<particles::PlacedShape> placed;
+  if (s.container_radius > 0)
+    placed.push_back(
+        {particles::Container{{s.container_x, s.container_z}, s.container_radius}, s.wall_angle});
+  return drawn_text(apps::drawn_walls(placed), nullptr);
 }
 
 constexpr int most_threads = 256;  // as the commands take them
@@ -97,6 +119,19 @@ class SteppedScene {
   // HDF5 serves one thread: files are written behind the interpreter's lock.
   void save_snapshot(const std::string& file) {
     particles::write_snapshot(file, look([](Simulation& s) { return s.take_snapshot(); }));
+  }
+  /// What the figures draw beside the grains.
+  std::string drawn() const {
+    return look([](const Simulation& s) {
+      const auto& state = s.state();
+      const auto shapes = s.walls().shapes_at(state.time_in_stage, state.driven);
+      std::vector<particles::PlacedShape> placed;
+      for (std::size_t k = 0; k < shapes.size(); ++k) {
+        const int wall = static_cast<int>(s.walls().wall_of_shape[k]);
+        placed.push_back({shapes[k], s.walls().pose(wall, state.time_in_stage, state.driven).angle});
+      }
+      return drawn_text(apps::drawn_walls(placed), apps::drawn_period(s.scene(), s.scales()));
+    });
   }
   void save(const std::string& file) {
     particles::Checkpoint checkpoint;
@@ -223,6 +258,8 @@ void add_simulation(py::module_& module) {
   module.def("continued_scene", [](const std::string& file, int threads) {
     return std::make_unique<SteppedScene>(file, threads);
   });
+  module.def("drawn_of_snapshot", &drawn_of_snapshot);
+  scene.def("drawn", &SteppedScene::drawn);
   scene.def("save_snapshot", &SteppedScene::save_snapshot);
   scene.def("save", &SteppedScene::save);
   scene.def("set_velocities", &SteppedScene::set_velocities);

@@ -3,6 +3,7 @@
 import pickle
 
 import drumlin
+import matplotlib.patches
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -86,6 +87,8 @@ def test_figures_are_drawn_on_axes_of_ones_own(run, data):
     snapshot = drumlin.read(run.snapshots[0])
     discs = drumlin.plot.grains(left, snapshot, np.hypot(snapshot.v_x, snapshot.v_z))
     assert len(discs.get_offsets()) == 350
+    circle, = (patch for patch in left.patches if isinstance(patch, matplotlib.patches.Circle))
+    assert circle.radius == pytest.approx(run["scene.toml"]["walls"][0]["radius_mm"] * 1e-3 / snapshot.scales["length_m"]) and left.get_xlim()[1] > circle.radius, "the drum is not there"
     drumlin.plot.profile(right, drumlin.read(data / "bed/6rpm-5turns-seed1/measured/profiles.csv"), "v_x", label="particles")
     assert right.get_lines() and right.get_ylabel().startswith("$v_x$")
     figure.canvas.draw()

@@ -6,6 +6,7 @@ import signal
 import tomllib
 
 import drumlin
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -46,6 +47,17 @@ def test_views_show_the_state_and_cannot_be_written(box):
     kept = simulation.x
     del simulation
     assert np.isfinite(kept).all()  # the view keeps its simulation alive
+
+
+def test_a_simulation_is_drawn_with_its_walls(box, data):
+    axes = plt.figure().add_subplot()
+    simulation = drumlin.Simulation(box)
+    drumlin.plot.grains(axes, simulation)
+    assert len(axes.get_lines()) == len(simulation.wall_of_shape)
+    turning = drumlin.Simulation("drum-smoke", {"stages.0.duration_s": 0.002, "grains.generated.count": 20})
+    turning.run(steps=10)
+    drumlin.plot.grains(other := plt.figure().add_subplot(), turning)
+    assert [type(patch).__name__ for patch in other.patches] == ["Circle"]
 
 
 def test_views_of_a_scene_whose_grains_come_and_go_are_copies(data):

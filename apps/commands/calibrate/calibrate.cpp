@@ -42,7 +42,9 @@ std::string forms_text(const coupling::Calibration& calibration) {
         f == calibration.chosen ? "*" : " ", name_of(law.form), law.fit.rms_misfit, law.fit.intrinsic_scatter,
         middle, coupling::half_width_at(law, middle));
     if (f == calibration.chosen && coupling::half_width_at(law, middle) > law.curve().at(middle).value)
-      text += "    warning: the interval is wider than mu itself: the runs are too short for a law\n";
+      text +=
+          "    warning: the interval is wider than mu itself: too few points for a law (longer or more runs, "
+          "more layers)\n";
   }
   return text;
 }

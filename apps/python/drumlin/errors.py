@@ -2,7 +2,13 @@
 
 
 class DrumlinError(Exception):
-    """What Drumlin refuses or fails at. Each kind has the `exit_code` of the commands."""
+    """What Drumlin refuses or fails at. Each kind has the `exit_code` of the commands.
+
+    >>> try:
+    ...     drumlin.run("scene.toml", "RUN")
+    ... except drumlin.InputError as error:
+    ...     print(error.problems)
+    """
 
 
 class InputError(DrumlinError, ValueError):

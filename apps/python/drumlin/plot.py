@@ -65,19 +65,27 @@ def show(run, color: str = "speed", snapshot="last", forces: bool = False, anima
 
 
 def grains(axes, snapshot, values=None, **keywords):
-    """Draws discs at x, z with their radius: a snapshot that was read, or a simulation at hand. values: a colour for each; returns the collection.
+    """Draws discs and walls, as `drumlin plot` does, of a snapshot that was read, or a simulation at hand. values: a colour for each disc; returns the
+    collection of the discs.
 
     >>> drumlin.plot.grains(axes, snapshot, snapshot.spin)
     """
-    import matplotlib.collections  # half a second, for those who draw alone
+    from . import _drumlin  # pylint: disable=import-outside-toplevel
 
-    x, z, radius = (np.asarray(getattr(snapshot, name)) for name in ("x", "z", "radius"))
-    discs = matplotlib.collections.EllipseCollection(2 * radius, 2 * radius, np.zeros_like(radius), units="xy", offsets=np.column_stack([x, z]),
-                                                     transOffset=axes.transData, **({"edgecolor": "0.3", "linewidth": 0.3} | keywords))
+    maps = figure_module("grain_maps")
+    with tempfile.TemporaryDirectory() as folder:
+        if is_read := hasattr(snapshot, "path"):
+            file = snapshot.path
+        else:
+            snapshot.save_snapshot(file := pathlib.Path(folder) / "000001.h5")
+        drawn = json.loads(_drumlin.drawn_of_snapshot(str(file)) if is_read else snapshot._scene.drawn())  # pylint: disable=protected-access
+        here = maps.Grains({"file": str(file), "walls": drawn["walls"]}, drawn["period"])
+    view = maps.View([here])
+    discs = view.add_grains(axes, here, **({"edgecolors": "0.3"} | keywords))
     if values is not None:
         discs.set_array(np.array(values, float))
-    axes.add_collection(discs)
-    axes.set(xlim=((x - radius).min(), (x + radius).max()), ylim=((z - radius).min(), (z + radius).max()), aspect="equal", xlabel="x [d]", ylabel="z [d]")
+    view.add_marks(axes, here)
+    axes.set(xlim=(view.low[0], view.high[0]), ylim=(view.low[1], view.high[1]), aspect="equal", xlabel="x [d]", ylabel="z [d]")
     return discs
 
 
@@ -94,7 +102,10 @@ def profile(axes, table, name, color=None, label=None):
 
 def compared(axes, report, name, logarithmic=False):
     """Draws both sides of a comparison over z with their bands, interface and surface: report is the folder that `compare` left, name a field such as
-    "sigma_xz"."""
+    "sigma_xz".
+
+    >>> drumlin.plot.compared(axes, drumlin.read("REPORT"), "sigma_xz")
+    """
     figures, style = figure_module("compare_figures"), figure_module("style")
     comparison, overlay = report["comparison.json"], report["overlay.csv"]
     if name + "_particles" not in overlay:
@@ -107,7 +118,10 @@ def compared(axes, report, name, logarithmic=False):
 
 def field(axes, maps, name, logarithmic=False, label=None, norm=None, cmap="viridis", surface=None):
     """Draws a field of maps.h5, of either side, with the outline of drum or annulus and a bar of its colours. surface: "surface" of flow.json, where the
-    flow moved it."""
+    flow moved it.
+
+    >>> drumlin.plot.field(axes, drumlin.read("FLOW/maps.h5"), "p")
+    """
     import matplotlib.colors
 
     if name not in maps:
@@ -122,20 +136,29 @@ def field(axes, maps, name, logarithmic=False, label=None, norm=None, cmap="viri
 
 def law(axes, record, rest=False):
     """Draws what `calibrate` found: points of all runs and the law with its band over I; with rest=True what the law leaves of them. record: the JSON
-    file beside the law, which was read."""
+    file beside the law, which was read.
+
+    >>> drumlin.plot.law(axes, drumlin.read("rheology.json"))
+    """
     figures = figure_module("calibrate_figures")
     (figures.draw_rest if rest else figures.draw_law)(axes, record)
 
 
 def newton(axes, flow, over_time=False):
-    """Draws the residuals of a flow over its iterations or seconds, a colour for each phase: flow is the folder that `flow` left."""
+    """Draws the residuals of a flow over its iterations or seconds, a colour for each phase: flow is the folder that `flow` left.
+
+    >>> drumlin.plot.newton(axes, drumlin.read("FLOW"))
+    """
     trust = figure_module("flow_trust")
     trust.draw_convergence(axes, figure_module("result_files").read_rows(flow.path / "iterations.csv"), flow["flow.json"]["settings"]["tolerance"], over_time)
     axes.set_ylabel("residual / norm of the loads")
 
 
 def history(axes, table, *names, logarithmic=False):
-    """Draws columns of a table over its time: log.csv or energy.csv of a run, series.csv of what was measured or of a march, what `history` wrote."""
+    """Draws columns of a table over its time: log.csv or energy.csv of a run, series.csv of what was measured or of a march, what `history` wrote.
+
+    >>> drumlin.plot.history(axes, drumlin.read("RUN/log.csv"), "kinetic_energy")
+    """
     time = next((name for name in ("time_s", "time") if name in table), None)
     for name in names:
         if name not in table or time is None:
