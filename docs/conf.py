@@ -8,6 +8,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import textwrap
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BUILD = pathlib.Path(os.environ.get("DRUMLIN_BUILD", ROOT / "build"))
@@ -183,6 +184,8 @@ def read(_, page, text):
         text[0] = "# Install\n\n" + of_root("README.md", "Install", "First result").removeprefix("## Install\n") + "\n" + links_within(text[0].split("\n\n", 2)[2], ROOT / "docs")
     elif (pathlib.Path(ROOT / "docs" / page).with_suffix(".md")).exists():
         text[0] = with_keys(links_within(text[0], (ROOT / "docs" / page).parent))
+    if page == "gallery/README":  # what is indented has no language
+        text[0] = re.sub(r"(?:^    .+\n)+", lambda lines: f"```sh\n{textwrap.dedent(lines[0])}```\n", text[0], flags=re.MULTILINE)
     if BELOW.get(page):
         text[0] += toctree(BELOW[page])
 
