@@ -46,10 +46,11 @@ def one_truth(random):
 
 def test_what_no_interval_of_a_run_knows_is_found_as_spread(emulated):
     # Each number scatters by SD, of which the run's interval knows 0.6. 64 runs tell a deviation to a tenth.
-    assert np.hypot([process.spread for process in emulated.processes], 0.6 * SD) == pytest.approx(SD, rel=0.3)
-    means, own = emulated.predict(np.array([[0.3, 0.5, 0.6]]))
-    assert np.abs(means - angles(np.array([[0.3, 0.5, 0.6]]))) == pytest.approx(0, abs=1.5)
-    assert (own < SD).all() and (emulated.deviations(own, 0 * SD, 10**9) == pytest.approx(own, rel=0.3))
+    means, own, spread = emulated.predict(np.array([[0.3, 0.5, 0.6]]))
+    assert np.hypot(spread[0], 0.6 * SD) == pytest.approx(SD, rel=0.3)
+    assert np.abs(means - angles(np.array([[0.3, 0.5, 0.6]]))) == pytest.approx(0, abs=1.5) and (own < SD).all()
+    many = posterior.Datum(emulated, means[0], 0 * SD, 10**9)
+    assert many.at(np.array([[0.3, 0.5, 0.6]]))[1] == pytest.approx(own, rel=1e-3)
 
 
 def test_regions_of_ninety_per_cent_hold_the_truth(emulated):

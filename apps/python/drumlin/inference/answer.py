@@ -41,10 +41,10 @@ def data_rows(of, samples, scenes):
     """Of each number that was measured: what the posterior expects, how far off it lies, and what its uncertainty is made of."""
     rows = []
     for scene, datum, (mean, sd) in zip(scenes, of.data, of.predicted(samples)):
-        _, own = datum.emulator.predict(of.unit(samples[:: max(1, len(samples) // 500)]))
+        _, *inner = datum.emulator.predict(of.unit(samples[:: max(1, len(samples) // 500)]))
+        own, spread = (np.sqrt(np.mean(one**2, axis=0)) for one in inner)
         for k, (name, process) in enumerate(zip(datum.emulator.names, datum.emulator.processes)):
-            parts = {"measurement": datum.errors[k], "emulator": process.inflation * np.sqrt(np.mean(own[:, k] ** 2)),
-                     "spread": process.inflation * process.spread / np.sqrt(datum.realisations)}
+            parts = {"measurement": datum.errors[k], "emulator": own[k], "spread": spread[k] / np.sqrt(datum.realisations)}
             left_out = float(np.sqrt(np.nanmean(process.rest**2))) if len(process.rest) else None
             rows.append({"scene": scene.name, "name": name.removeprefix(f"{scene.name}: "), "value": float(datum.values[k]), "expected": float(mean[k]),
                          "expected_sd": float(sd[k]), "off": float((datum.values[k] - mean[k]) / sd[k]),
@@ -93,10 +93,13 @@ def _fit(content):
     if not fit["is_misfit"] and fit["data"] <= len(content["unknowns"]):
         return [f"the data fit, but {fit['data']} numbers of {len(content['unknowns'])} unknowns nearly always do"]
     if not fit["is_misfit"]:
-        return [f"the data fit: {fit['share']:.0%} of the data sets that such grains give fit as badly "
+        return [f"the data fit: {fit['share']:.0%} of the data sets that such grains give contradict themselves as much "
                 f"(chi square {fit['chi_square']:.1f} of {fit['data']} numbers)"]
-    words = [f"MISFIT: no grains in these ranges explain the data together: {fit['share']:.1%} of the data sets that they give fit as badly (chi square "
-             f"{fit['chi_square']:.1f} of {fit['data']} numbers); the intervals below mean nothing until the cause is found"]
+    words = [f"MISFIT: no grains in these ranges explain the data together: {fit['share']:.1%} of the data sets that they give contradict themselves as "
+             f"much (chi square {fit['chi_square']:.1f} of {fit['data']} numbers); the intervals below mean nothing until the cause is found"]
+    if len(fit["without"]) > 1:
+        odd = min(fit["without"], key=fit["without"].get)
+        words.append(f"{odd} contradicts the others most: chi square {fit['without'][odd]:.1f} without it")
     off = sorted(content["data"], key=lambda row: -abs(row["off"]))
     return words + [f"{row['scene']}, {row['name']}: {row['value']:.4g} where {row['expected']:.4g} +- {row['expected_sd']:.2g} is expected"
                     for row in off if abs(row["off"]) > 1.5 or row is off[0]]

@@ -43,32 +43,26 @@ class LibraryEmulator:
         self.fixed = {name: value for name, value in (USUAL | scene.settings).items() if name not in self.free}
         for name in GRAINS:
             _require_inside(name, *(ranges[name] if name in self.free else [self.fixed.get(name, np.nan)] * 2))
-        # Deviations stand in mu; what differs from run to run is in the process.
-        self.processes = [types.SimpleNamespace(spread=0.0, inflation=1.0, rest=np.zeros(0)) for _ in self.names]
+        self.processes = [types.SimpleNamespace(rest=np.zeros(0)) for _ in self.names]
         self.middle = 0.0
         mean, covariance = _library().normal("mu", self._grains(self.ends.mean(axis=1)), self.inertial)
         self.middle = mean[0] - np.log(self.predict(np.full((1, len(self.free)), 0.5))[0][0, 0])
         deviation = np.sqrt(np.diag(covariance))
         self.correlation = (1 - emulator.SHRINKAGE) * covariance / np.outer(deviation, deviation) + emulator.SHRINKAGE * np.eye(len(deviation))
         self.factor = np.linalg.cholesky(self.correlation)
-        self.inverse_factor = np.linalg.inv(self.factor)
 
     def _grains(self, values):
         return self.fixed | {name: value for name, value in zip(self.free, values) if name in GRAINS}
 
     def predict(self, unit):
-        """(means, standard deviations), each (points, I)"""
+        """(means, standard deviations, spreads), each (points, I); what differs from run to run is in the process."""
         from ..library.table import coordinates  # pylint: disable=import-outside-toplevel
         count, of = len(self.inertial), _library()
         grains = self._grains((self.ends[:, 0] + unit * (self.ends[:, 1] - self.ends[:, 0])).T)
         repeated = {name: np.repeat(np.broadcast_to(np.asarray(value, float), len(unit)), count) for name, value in grains.items()}
         mean, deviation = of.processes["mu"].predict(coordinates(repeated, np.tile(self.inertial, len(unit))), return_std=True)
         mu = np.exp(mean + self.middle)
-        return mu.reshape(-1, count), (mu * deviation).reshape(-1, count)
-
-    def deviations(self, own, errors, realisations):  # pylint: disable=unused-argument
-        """As of an Emulator."""
-        return np.hypot(own, errors)
+        return mu.reshape(-1, count), (mu * deviation).reshape(-1, count), np.zeros((len(unit), count))
 
 
 def law_of(asked, given, samples):

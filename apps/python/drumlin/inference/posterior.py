@@ -14,7 +14,8 @@ REPLICATES = 400  # data sets drawn from the posterior, against which the misfit
 MISFIT = 0.01  # share of them that fit as badly: below it the data are called a misfit
 
 
-def _emcee():
+def require_emcee():
+    """The package, which is loaded where it is needed."""
     try:
         import emcee  # pylint: disable=import-outside-toplevel  # of those who infer
     except ModuleNotFoundError as missing:
@@ -33,17 +34,24 @@ class Datum:
 
     def at(self, points):
         """(means, deviations of what is measured from them) at each point."""
-        means, own = self.emulator.predict(points)
-        return means, self.emulator.deviations(own, self.errors, self.realisations)
+        means, own, spread = self.emulator.predict(points)
+        return means, np.sqrt(self.errors**2 + own**2 + spread**2 / self.realisations)
 
-    def rest(self, means, deviations, values=None):
-        """Of the values from the means, in independent units."""
-        scaled = ((self.values if values is None else values) - means) / deviations
-        return scaled @ self.emulator.inverse_factor.T
+    def entries(self):
+        """[(name, numbers)] of what was measured at once: a profile is one entry."""
+        names = [name.split("(")[0] for name in self.emulator.names]
+        return [(name, [k for k, other in enumerate(names) if other == name]) for name in dict.fromkeys(names)]
+
+    def squares(self, means, deviations, values=None, without=()):
+        """Sum of squares of what the values are off, in independent units; without some of the numbers, as if each had an offset that is free."""
+        kept = [k for k in range(len(self.values)) if k not in without]
+        inverse_factor = np.linalg.inv(np.linalg.cholesky(self.emulator.correlation[np.ix_(kept, kept)]))
+        off = ((self.values if values is None else values) - means) / deviations
+        return np.sum((off[..., kept] @ inverse_factor.T) ** 2, axis=-1)
 
     def log_likelihood(self, points):
         means, deviations = self.at(points)
-        return -0.5 * np.sum(self.rest(means, deviations) ** 2, axis=-1) - np.log(deviations).sum(axis=-1)
+        return -0.5 * self.squares(means, deviations) - np.log(deviations).sum(axis=-1)
 
     def drawn(self, points, random):
         """Data sets that grains at these points would give."""
@@ -79,7 +87,7 @@ class Posterior:
 
     def sample(self, progress=lambda done: None):
         """(samples, log densities), a few thousand. NotConvergedError where the chains have not forgotten their start after 8000 steps."""
-        emcee, random = _emcee(), np.random.RandomState(3)  # pylint: disable=no-member
+        emcee, random = require_emcee(), np.random.RandomState(3)  # pylint: disable=no-member
         prior = self.of_prior(DRAWN)
         density = self.log_density(prior) - sum(one.log_density(column) for one, column in zip(self.priors, prior.T))
         weights = np.exp(density - density.max())
@@ -101,16 +109,33 @@ class Posterior:
         return (sampler.get_chain(discard=forgotten, thin=apart, flat=True), sampler.get_log_prob(discard=forgotten, thin=apart, flat=True))
 
     def misfit(self, samples):
-        """{chi_square, data, share}: sum of squares of the best point, and the share of data sets drawn from the posterior whose best point fits as badly."""
+        """{chi_square, data, without, share}: sum of squares of the best point, the same without an entry of the data, and the share of data sets drawn from
+        the posterior that contradict themselves as badly: an entry with a free offset makes them as much more likely."""
         random = np.random.default_rng(4)
         chosen = samples[random.choice(len(samples), REPLICATES)]
         tried = np.concatenate([chosen, self.of_prior(1024)])
         drawn = [datum.drawn(self.unit(chosen), random) for datum in self.data]
         there = [datum.at(self.unit(tried)) for datum in self.data]
-        best = _squares([datum.rest(*at) for datum, at in zip(self.data, there)])
-        replicated = [_squares([datum.rest(*at, values[number]) for datum, at, values in zip(self.data, there, drawn)]) for number in range(REPLICATES)]
+        conflict, best, without = self._conflict(there, [datum.values for datum in self.data])
+        replicated = [self._conflict(there, [values[number] for values in drawn])[0] for number in range(REPLICATES)]
         count = sum(len(datum.values) for datum in self.data)
-        return {"chi_square": best, "data": count, "share": float(np.mean(np.array(replicated) >= best))}
+        return {"chi_square": best, "data": count, "without": without, "share": float(np.mean(np.array(replicated) >= conflict))}
+
+    def _conflict(self, there, values):
+        """(greatest contradiction of one entry to the others, sum of squares of the most likely point, {entry: the same without it}). Twice the gain in log
+        likelihood by a free offset of the entry is as chi square of its numbers; of all entries in normal deviations."""
+        parts = [datum.squares(*at, of) for datum, at, of in zip(self.data, there, values)]
+        level, squares = 2 * sum(np.log(deviations).sum(axis=-1) for _, deviations in there), sum(parts)
+        likely = int((level + squares).argmin())
+        greatest, without = -np.inf, {}
+        for datum, at, of, part in zip(self.data, there, values, parts):
+            for name, numbers in datum.entries():
+                freed = squares - part + datum.squares(*at, of, numbers)
+                likely_then = int((level + freed).argmin())
+                gain = (level + squares)[likely] - (level + freed)[likely_then]
+                greatest = max(greatest, scipy.stats.norm.isf(scipy.stats.chi2.sf(gain, len(numbers))))
+                without[name] = float(freed[likely_then])
+        return greatest, float(squares[likely]), without
 
     def predicted(self, samples):
         """For each scene (means, standard deviations) of what the posterior expects to be measured."""
@@ -118,11 +143,6 @@ class Posterior:
         chosen = samples[random.choice(len(samples), 1000)]
         drawn = [datum.drawn(self.unit(chosen), random) for datum in self.data]
         return [(values.mean(axis=0), values.std(axis=0)) for values in drawn]
-
-
-def _squares(rests):
-    """The least sum of squares over the points."""
-    return float(np.min(sum(np.sum(rest**2, axis=-1) for rest in rests)))
 
 
 def share_above(log_densities, density):

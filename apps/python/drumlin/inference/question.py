@@ -1,6 +1,7 @@
 """A question (docs/formats/infer.md): what is unknown, what was measured, and the scenes that measure it."""
 
 import dataclasses
+import functools
 import math
 import os
 import pathlib
@@ -25,7 +26,7 @@ class Prior:
     sd: float = math.nan
     log: bool = False
 
-    @property
+    @functools.cached_property
     def _law(self):
         if math.isfinite(self.sd):
             return scipy.stats.truncnorm((self.low - self.mean) / self.sd, (self.high - self.mean) / self.sd, self.mean, self.sd)
