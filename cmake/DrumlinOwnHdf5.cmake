@@ -14,6 +14,6 @@ if(DRUMLIN_OWN_HDF5_LIBRARY AND DRUMLIN_SZIP_LIBRARY AND own_hdf5_version VERSIO
   drumlin_library(drumlin::own_hdf5 "${DRUMLIN_OWN_HDF5_LIBRARY};${DRUMLIN_SZIP_LIBRARY};ZLIB::ZLIB;m;${CMAKE_DL_LIBS}")
   set_property(TARGET drumlin::hdf5 PROPERTY INTERFACE_LINK_LIBRARIES
                "$<IF:$<BOOL:$<TARGET_PROPERTY:DRUMLIN_OWN_HDF5>>,drumlin::own_hdf5,${DRUMLIN_HDF5_LIBRARY}>")
-else()
+elseif(NOT DRUMLIN_HDF5_LIBRARY MATCHES "\\.a(;|$)")
   message(STATUS "HDF5 ${HDF5_VERSION} is not there as a static library (found: ${own_hdf5_version}): `drumlin` loads the shared one")
 endif()

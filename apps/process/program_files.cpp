@@ -33,15 +33,28 @@ fs::path beside_program(const char* what, const char* built, const char* install
                             (program / installed).lexically_normal().string()));
 }
 
-/// The scripts of a wheel, in the packages of the interpreter beside the program; none elsewhere. The folder
-/// has that interpreter's version in its name.
-std::optional<fs::path> figures_of_wheel() {
-  const fs::path program = program_folder();
+/// What a wheel is installed with.
+struct OfWheel {
+  fs::path figures;
+  fs::path interpreter;
+};
+
+/// Where a wheel was installed: below the folder of packages whose name has the interpreter's version
+/// (lib/python3.11/site-packages; Debian's own Python: dist-packages). That interpreter stands beside the
+/// program, or it is the system's, or PATH finds it.
+std::optional<OfWheel> of_wheel() {
   std::error_code none;
-  if (!fs::exists(program / "python3", none)) return std::nullopt;
-  for (const auto& entry : fs::directory_iterator(program.parent_path() / "lib", none))
-    if (const fs::path found = entry.path() / "site-packages/drumlin/figures"; fs::is_directory(found, none))
-      return found;
+  for (const auto& entry : fs::directory_iterator(program_folder().parent_path() / "lib", none)) {
+    const fs::path name = entry.path().filename();
+    if (!name.string().starts_with("python3.")) continue;
+    for (const char* packages : {"site-packages", "dist-packages"})
+      if (const fs::path figures = entry.path() / packages / "drumlin/figures";
+          fs::is_directory(figures, none)) {
+        for (const fs::path& folder : {program_folder(), fs::path("/usr/bin")})
+          if (fs::exists(folder / name, none)) return OfWheel{figures, folder / name};
+        return OfWheel{figures, name};
+      }
+  }
   return std::nullopt;
 }
 
@@ -126,13 +139,14 @@ std::string shipped_scene_of_any_kind(const std::string& name) {
 std::string shipped_law(const std::string& name) { return shipped(name, "rheology", shipped_laws(), "law"); }
 
 fs::path figures_folder() {
-  if (const auto of_wheel = figures_of_wheel()) return *of_wheel;
+  if (const auto wheel = of_wheel()) return wheel->figures;
   return beside_program("the scripts that draw figures", "python/drumlin/figures",
                         DRUMLIN_FIGURES_FROM_PROGRAM);
 }
 
 fs::path interpreter() {
-  return figures_of_wheel() ? program_folder() / "python3" : fs::path(DRUMLIN_PYTHON);
+  const auto wheel = of_wheel();
+  return wheel ? wheel->interpreter : fs::path(DRUMLIN_PYTHON);
 }
 
 }  // namespace drumlin::apps

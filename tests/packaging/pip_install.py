@@ -1,14 +1,15 @@
-"""Commands and Python package of the build tree by pip, without a network, into a virtual environment: imported elsewhere, it reads, steps and finds its commands.
-Ends with 77 where this Python has no venv or no pip (Debian: python3-venv).
+"""A wheel that needs nothing but the C and C++ libraries, by pip into a virtual environment: imported elsewhere, it reads, steps and finds its commands.
+Ends with 77 where this Python has no venv or no pip (Debian: python3-venv), or where sources of the libraries that the wheel holds cannot be had.
 
-usage: pip_install.py BUILD_FOLDER SOURCES
+usage: pip_install.py SOURCES
 """
 
-import os
 import pathlib
 import subprocess
 import sys
 import tempfile
+
+from installed import require, require_no_path, run
 
 PROGRAM = """
 import pathlib, drumlin
@@ -22,15 +23,8 @@ print(drumlin.__file__, drumlin.program(), drumlin.command("--version").split()[
 """
 
 
-def run(*words, **keywords):
-    result = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False, **keywords)
-    if result.returncode != 0:
-        sys.exit(f"{' '.join(map(str, words))}\nexit code {result.returncode}\n{result.stdout}{result.stderr}")
-    return result.stdout
-
-
 def main():
-    build, sources = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
+    sources = pathlib.Path(sys.argv[1]).resolve()
     with tempfile.TemporaryDirectory(prefix="drumlin-pip-") as name:
         folder = pathlib.Path(name)
         made = subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", folder / "venv"], capture_output=True, text=True, check=False)
@@ -38,11 +32,23 @@ def main():
             print(f"no virtual environment, nothing tried:\n{made.stdout}{made.stderr}")
             sys.exit(77)
         python = folder / "venv" / "bin" / "python"
-        run(python, "-m", "pip", "install", "--no-index", "--no-deps", "--no-build-isolation", sources, cwd=folder, env=os.environ | {"DRUMLIN_BUILD": str(build)})
-        said = run(python, "-c", PROGRAM, cwd=folder, env=os.environ | {"PATH": "/usr/bin:/bin"}).strip().split("|")
-        if not said[0].startswith(str(folder / "venv")) or pathlib.Path(said[1]).parent != folder / "venv" / "bin" or said[2] != "drumlin":
-            sys.exit(f"another package or other commands: {said}")
-    print("installed by pip without a network")
+        built = subprocess.run([sources / "packaging/wheels/libraries"], capture_output=True, text=True, check=False)
+        require(built.returncode in (0, 77), f"the libraries of the wheel:\n{built.stdout}{built.stderr}")
+        if built.returncode == 77:
+            print(f"nothing tried:\n{built.stderr}")
+            sys.exit(77)
+        run(python, "-m", "pip", "wheel", "--no-index", "--no-deps", "--no-build-isolation", "-w", folder, sources, cwd=folder)
+        wheel = next(folder.glob("drumlin-*.whl"))
+        print(run(sys.executable, sources / "packaging/wheels/portable.py", wheel))
+        require(wheel.stat().st_size < 40e6, "the wheel is larger than 40 MB")
+        run(python, "-m", "pip", "install", "--no-index", "--no-deps", wheel, cwd=folder)
+        require_no_path(folder / "venv", [sources])
+        said = run(python, "-c", PROGRAM, cwd=folder, environment={"PATH": "/usr/bin:/bin"}).strip().split("|")
+        require(said[0].startswith(str(folder / "venv")) and pathlib.Path(said[1]).parent == folder / "venv" / "bin" and said[2] == "drumlin",
+                f"another package or other commands: {said}")
+        flow = subprocess.run([folder / "venv/bin/drumlin", "flow", "incline-flow", "--rheology", "paper", "-o", folder / "FLOW"], capture_output=True, text=True, check=False)
+        require(flow.returncode == 2 and "libdeal.ii-dev" in flow.stderr, f"drumlin flow does not say what to install: {flow.returncode}, {flow.stderr}")
+    print("built as a wheel, installed by pip without a network")
 
 
 if __name__ == "__main__":
