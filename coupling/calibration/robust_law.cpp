@@ -200,10 +200,13 @@ double normal_draw(std::mt19937_64& random) {
   return radius * std::cos(2 * std::numbers::pi * uniform());
 }
 
-Points redrawn(const Points& run, const FormCurve& law, std::mt19937_64& random) {
-  if (run.size() < 2 * block_length) {
+bool is_short(const Points& run) { return run.size() < 2 * block_length; }
+
+/// `widening`: of the misfit of a short run.
+Points redrawn(const Points& run, const FormCurve& law, double widening, std::mt19937_64& random) {
+  if (is_short(run)) {
     Points draw = run;
-    const double share = normal_draw(random);
+    const double share = widening * normal_draw(random);
     for (FrictionPoint& point : draw) point.mu -= (1 - share) * residual(point, law);
     return draw;
   }
@@ -257,6 +260,9 @@ std::vector<Coefficients> bootstrapped(const std::vector<std::vector<FrictionPoi
   const double widening =
       small_sample_factor(all.size(), static_cast<std::size_t>(count), static_cast<int>(form.size()));
   const FormCurve curve(form, fit.law);
+  // In the misfit where all runs are short: coefficients that trade against each other do not scale.
+  const bool all_short = std::ranges::all_of(runs, is_short);
+  const double of_misfit = all_short ? widening : 1, of_law = all_short ? 1 : widening;
 
   std::mt19937_64 random(seed);
   std::vector<Coefficients> laws;
@@ -264,12 +270,12 @@ std::vector<Coefficients> bootstrapped(const std::vector<std::vector<FrictionPoi
     if (before_each) before_each();
     std::vector<FrictionPoint> points;
     for (const auto& run : runs) {
-      const Points draw = redrawn(run, curve, random);
+      const Points draw = redrawn(run, curve, of_misfit, random);
       points.insert(points.end(), draw.begin(), draw.end());
     }
     Coefficients law = law_with_scatter(points, form, fit.law, s2);
     for (std::size_t j = 0; j < law.size(); ++j)
-      law[j] = std::max(least_coefficient(form, j), fit.law[j] + widening * (law[j] - fit.law[j]));
+      law[j] = std::max(least_coefficient(form, j), fit.law[j] + of_law * (law[j] - fit.law[j]));
     laws.push_back(std::move(law));
   }
   return laws;
