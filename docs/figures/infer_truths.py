@@ -1,11 +1,13 @@
 """Coverage of `drumlin infer` on synthetic truths: makes the designs and the truths of data/limits/infer.toml, infers each truth, and judges.
 
-usage: infer_truths.py runs|judge LIMITS WORK [-o RECORD.json] [--executor local:2]
+usage: infer_truths.py runs|judge LIMITS WORK [-o RECORD.json] [--executor local:2] [--processes N]
   LIMITS  data/limits/infer.toml; its scenes lie in data/infer
   WORK    folder of designs and truths; the same call again goes on
 """
 
 import argparse
+import concurrent.futures
+import functools
 import json
 import pathlib
 import time
@@ -78,23 +80,28 @@ def mean_of(each, runs):
     return np.mean([values for values, _ in found], axis=0), np.sqrt(np.sum([np.nan_to_num(errors) ** 2 for _, errors in found], axis=0)) / len(found)
 
 
-def judged(limits, designs, work):
-    """The rows of all truths of a question, and what becomes of biased data."""
-    judge, rows, names = Judge(designs), [], list(limits["unknowns"])
-    for number, truth in enumerate(truths(limits)):
-        data = [question.simulated(each.scene, run_of_truth(limits, each, work, number).folder) for each in designs]
-        start = time.process_time()
-        samples, densities = judge.ask(data)
-        told = judge.share_of_misfit(samples)
-        row = {"truth": dict(zip(names, truth)), "region": posterior.share_above(densities, judge.of.log_density(truth[None])[0]),
-               "quantiles": dict(zip(names, (samples < truth).mean(axis=0))), "misfit": told, "seconds": time.process_time() - start,
-               "widths": {name: one["width_over_prior"] for name, one in answer.unknowns(judge.of, samples).items()}}
-        angles = [name for emulator in judge.emulators for name in emulator.names if name.endswith("theta_deg")]
-        for label, biased in (("one", [FASTER]), ("both", angles)) if angles else ():
-            row[f"misfit_biased_{label}"] = judge.share_of_misfit(judge.ask(data, bias=dict.fromkeys(biased, 2.0))[0])
-        rows.append(row)
-        print(number, f"{row['region']:.2f}", {name: f"{share:.2f}" for name, share in row["quantiles"].items()}, f"{row['misfit']:.3f}", flush=True)
-    return judge, rows
+def row_of(judge, limits, work, number):
+    """What becomes of one truth, and of its biased data."""
+    truth, names = truths(limits)[number], list(limits["unknowns"])
+    data = [question.simulated(each.scene, run_of_truth(limits, each, work, number).folder) for each in judge.designs]
+    start = time.process_time()
+    samples, densities = judge.ask(data)
+    told = judge.share_of_misfit(samples)
+    row = {"truth": dict(zip(names, truth)), "region": posterior.share_above(densities, judge.of.log_density(truth[None])[0]),
+           "quantiles": dict(zip(names, (samples < truth).mean(axis=0))), "misfit": told, "seconds": time.process_time() - start,
+           "widths": {name: one["width_over_prior"] for name, one in answer.unknowns(judge.of, samples).items()}}
+    angles = [name for emulator in judge.emulators for name in emulator.names if name.endswith("theta_deg")]
+    for label, biased in (("one", [FASTER]), ("both", angles)) if angles else ():
+        row[f"misfit_biased_{label}"] = judge.share_of_misfit(judge.ask(data, bias=dict.fromkeys(biased, 2.0))[0])
+    print(number, f"{row['region']:.2f}", {name: f"{share:.2f}" for name, share in row["quantiles"].items()}, f"{row['misfit']:.3f}", flush=True)
+    return row
+
+
+def judged(limits, designs, work, processes):
+    """The rows of all truths of a question, and their judge."""
+    judge = Judge(designs)
+    with concurrent.futures.ProcessPoolExecutor(processes) as executor:
+        return judge, list(executor.map(functools.partial(row_of, judge, limits, work), range(limits["truths"])))
 
 
 def repeated(limits, judge, work):
@@ -135,6 +142,7 @@ def main():
     parser.add_argument("work", type=pathlib.Path)
     parser.add_argument("-o", "--output", type=pathlib.Path)
     parser.add_argument("--executor", default="local:2")
+    parser.add_argument("--processes", type=int, default=1)
     given = parser.parse_args()
     limits = tomllib.loads(given.limits.read_text(encoding="utf-8"))
     asked = questions(limits, given.limits.parent.parent / "infer")
@@ -144,7 +152,7 @@ def main():
         return
     record = {"format": "drumlin-infer-truths-1", "limits": "data/limits/infer.toml", "questions": {}, "provenance": _drumlin.provenance()}
     for name, those in designs.items():
-        judge, rows = judged(limits, those, given.work)
+        judge, rows = judged(limits, those, given.work, given.processes)
         pairs = repeated(limits, judge, given.work) if name == "drum" else []
         record["questions"][name] = {"verdict": verdict(limits, rows, pairs), "repeated": pairs, "truths": rows,
                                      "designs": [design_of(each) for each in those]}
