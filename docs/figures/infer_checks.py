@@ -1,10 +1,11 @@
 """What is known of `drumlin infer` beside the frozen truths: coverage on further truths, and how well a bias of one angle could be told at all.
 
-usage: infer_checks.py runs|judge LIMITS WORK [-o RECORD.json] [--executor local:2]
+usage: infer_checks.py runs|judge LIMITS WORK [-o RECORD.json] [--executor local:2] [--processes N]
   LIMITS, WORK  as of infer_truths.py, whose designs are used; runs lie in WORK/validation
 """
 
 import argparse
+import concurrent.futures
 import json
 import pathlib
 import tomllib
@@ -18,7 +19,7 @@ from drumlin import _drumlin
 from drumlin.inference import command, design, posterior, question
 
 POINTS, SEEDS = 48, {"heap": 4, "drum": 2}  # further truths, and runs of each
-GRID = 8192  # points of the prior
+GRID = 4096  # points of the prior
 BIAS, FASTER = 2.0, "drum-30"
 KNOWN_BETTER = [(1, 64), (6, 64), (6, 1024), (24, 64), (24, 256), (48, 256), (48, 1024)]  # runs that are averaged, runs of a design
 
@@ -40,13 +41,13 @@ def weights_of(of, grid):
     return weights / weights.sum(), density
 
 
-def coverage(limits, designs, work, seeds):
+def coverage(limits, judge, work, seeds):
     """Of further truths: shares within the joint region, and of single unknowns within their intervals."""
-    judge, share, inside, each_inside = infer_truths.Judge(designs), limits["share"], [], []
+    share, inside, each_inside = limits["share"], [], []
     of, grid = judge.of, judge.of.of_prior(GRID)
     for number, truth in enumerate(further(limits)):
         for again in range(seeds):
-            data = [question.simulated(each.scene, run_of(limits, each, work, number, again).folder) for each in designs]
+            data = [question.simulated(each.scene, run_of(limits, each, work, number, again).folder) for each in judge.designs]
             of.data = [posterior.Datum(emulator, values, np.nan_to_num(errors)) for emulator, (values, errors) in zip(judge.emulators, data)]
             weights, density = weights_of(of, grid)
             inside.append(weights[density > of.log_density(truth[None])[0]].sum() < share)
@@ -62,11 +63,11 @@ def with_runs(emulator, factor):
     return types.SimpleNamespace(names=emulator.names, correlation=emulator.correlation, factor=emulator.factor, predict=predict)
 
 
-def power(limits, designs, realisations, runs):
+def power(limits, judge, realisations, runs):
     """How often a bias of the faster drum's angle is told by a test that knows which number to suspect, which no other exceeds: data drawn from the emulators,
     that angle against what the slower drum's data expect. A design's own deviation goes with the root of its runs."""
-    judge, random = infer_truths.Judge(designs), np.random.default_rng(11)
-    of, level, told, sd = judge.of, limits["misfit_level"], [], []
+    of, designs, random = judge.of, judge.designs, np.random.default_rng(11)
+    level, told, sd = limits["misfit_level"], [], []
     errors = [np.nanmedian([question.simulated(each.scene, run.folder)[1] for run in each.runs], axis=0) for each in designs]
     data = {each.scene.name: posterior.Datum(with_runs(emulator, np.sqrt(limits["design_runs"] / runs)), None, error / np.sqrt(realisations), realisations)
             for each, emulator, error in zip(designs, judge.emulators, errors)}
@@ -91,6 +92,7 @@ def main():
     parser.add_argument("work", type=pathlib.Path)
     parser.add_argument("-o", "--output", type=pathlib.Path)
     parser.add_argument("--executor", default="local:2")
+    parser.add_argument("--processes", type=int, default=1)
     given = parser.parse_args()
     limits = tomllib.loads(given.limits.read_text(encoding="utf-8"))
     asked = infer_truths.questions(limits, given.limits.parent.parent / "infer")
@@ -102,9 +104,12 @@ def main():
             run.folder.parent.mkdir(parents=True, exist_ok=True)
         design.make_all(runs, given.work, given.executor, True)
         return
+    with concurrent.futures.ProcessPoolExecutor(given.processes) as executor:
+        judges = dict(zip(designs, executor.map(infer_truths.Judge, designs.values())))
+        covered = {name: executor.submit(coverage, limits, judge, given.work, SEEDS[name]) for name, judge in judges.items()}
+        told = [executor.submit(power, limits, judges["drum"], *better) for better in KNOWN_BETTER]
     record = {"format": "drumlin-infer-checks-1", "limits": "data/limits/infer.toml", "bias_deg": BIAS, "provenance": _drumlin.provenance(),
-              "coverage": {name: coverage(limits, those, given.work, SEEDS[name]) for name, those in designs.items()},
-              "power": [power(limits, designs["drum"], *better) for better in KNOWN_BETTER]}
+              "coverage": {name: one.result() for name, one in covered.items()}, "power": [one.result() for one in told]}
     given.output.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
 
 
