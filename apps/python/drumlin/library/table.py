@@ -15,7 +15,8 @@ GRAINS = ("friction", "restitution", "spread", "rolling_resistance")
 ALLOWED = {"friction": (0, 100), "restitution": (0, 1), "spread": (0, 1), "rolling_resistance": (0, 100)}
 FITTED = {"mu": "ln", "nu": "", "k": ""}  # quantities with a process of their own; ln: over their logarithm
 NORMAL_99 = 2.5758
-START_LENGTHS = (2, 1, 0.6, 2, 2)  # of the coordinates; half of each is the least
+START_LENGTHS = (2, 1, 0.6, 2, 2, 0.5)  # of the coordinates; half of each is the least
+ORDERED = 0.1  # spread up to which sheared discs order: those of +-5 % do, those of +-20 % do not
 DRAWS = 16
 KNOTS = 13
 
@@ -31,7 +32,8 @@ def table_file():
 
 def coordinates(grains, I):  # noqa: E741
     """What the processes see of grains, arrays of one length, at I."""
-    return np.column_stack([np.log(grains["friction"] + 0.05), grains["restitution"], grains["spread"], np.log(grains["rolling_resistance"] + 0.03), np.log(I)])
+    return np.column_stack([np.log(grains["friction"] + 0.05), grains["restitution"], grains["spread"], np.log(grains["rolling_resistance"] + 0.03), np.log(I),
+                            np.exp(-((np.asarray(grains["spread"]) / ORDERED) ** 2))])
 
 
 class Library:
@@ -55,11 +57,11 @@ class Library:
         from sklearn.gaussian_process import kernels
 
         def part(amplitude, *seen):
-            lengths, bounds = np.full(5, 1e5), [(9e4, 1.1e5)] * 5  # a length that tells nothing apart
+            lengths, bounds = np.full(6, 1e5), [(9e4, 1.1e5)] * 6  # a length that tells nothing apart
             for coordinate in seen:
                 lengths[coordinate], bounds[coordinate] = START_LENGTHS[coordinate], (0.5 * START_LENGTHS[coordinate], 30)
             return kernels.ConstantKernel(amplitude, (1e-8, 1e2)) * kernels.RBF(lengths, bounds)
-        kernel = part(0.1, 0, 4) + part(0.01, 0, 1, 4) + part(0.01, 0, 2, 4) + part(0.01, 0, 3, 4) + kernels.WhiteKernel(1e-5, (1e-12, 1e-2))
+        kernel = part(0.1, 0, 4) + part(0.01, 0, 1, 4) + part(0.01, 0, 2, 4) + part(0.01, 0, 3, 4) + part(0.01, 0, 4, 5) + kernels.WhiteKernel(1e-5, (1e-12, 1e-2))
         scales = self.header.get("process_" + name)
         return kernel.clone_with_theta(np.log([float(scale) for scale in scales.split()])) if scales else kernel
 
