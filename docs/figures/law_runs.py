@@ -21,7 +21,7 @@ INERTIAL_TIME = math.sqrt(DENSITY * math.pi / 4 * DIAMETER**2 / PRESSURE)   # sq
 
 AXIS = [0.4, 0.0, 0.2, 0.1, 1.0, 0.05, 0.3, 0.6]
 DEFAULT = {"friction": 0.4, "restitution": 0.1, "sizes": "0.2", "rolling_resistance": 0.0}
-OTHERS = [{"restitution": 0.5}, {"restitution": 0.9}, {"sizes": "0.05"}, {"sizes": "0.5"}, {"sizes": "1:2"},
+OTHERS = [{"restitution": 0.5}, {"restitution": 0.9}, {"sizes": "0.05"}, {"sizes": "0.1"}, {"sizes": "0.5"}, {"sizes": "1:2"},
           {"rolling_resistance": 0.05}, {"rolling_resistance": 0.1}, {"rolling_resistance": 0.3}]
 
 # I: (time step in s, strain to forget the start, strain that is measured, snapshots of both)
