@@ -378,7 +378,7 @@ def slopes_of_spheres():
 def law_of_spheres():
     law = read("spheres/incline.json")["law"]
     low, rise, scale = law["coefficients"]
-    ranges = [f"{one['low']:.2f} to {one['high']:.2f}" for one in law["ranges"]]
+    ranges = [f"{one['low']:.2f} to {one['high']:.2f}" if one["high"] < 10 else f"from {one['low']:.2f} on" for one in law["ranges"]]
     return table(["", "fitted", "99 % of the draws", "Jop et al."],
                  [["mu_s", f"{low:.3f}", ranges[0], "0.383"], ["mu_2 - mu_s", f"{rise:.3f}", ranges[1], "0.260"], ["I_0", f"{scale:.3f}", ranges[2], "0.279"]])
 

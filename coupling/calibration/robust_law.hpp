@@ -30,9 +30,9 @@ RobustFriction fit_friction(const std::vector<FrictionPoint>& points, const Fric
 /// for points next to each other move together), with replacement (Kuensch, Ann. Stat. 17 (1989) 1217); of a
 /// run of less than two blocks, which holds no others to draw, all points with their misfit times one number
 /// that is normal with variance 1 (Wu, Ann. Stat. 14 (1986) 1261). The scatter is that of all points. Draws
-/// are widened about the law of all points, since few blocks differ by less than new measurements would; a
-/// coefficient that this takes below its least value is held there. The same `seed` gives the same draws.
-/// `before_each`, if there is one, is called before each: it may throw.
+/// (where all runs are so short, misfits) are widened about the law of all points, since few blocks differ by
+/// less than new measurements would; a coefficient that this takes below its least value is held there. The
+/// same `seed` gives the same draws. `before_each`, if there is one, is called before each: it may throw.
 std::vector<Coefficients> bootstrapped(const std::vector<std::vector<FrictionPoint>>& runs,
                                        const FrictionForm& form, int replicates, std::uint64_t seed = 1,
                                        const std::function<void()>& before_each = {});
