@@ -17,6 +17,14 @@ RANGES = {"friction": (0.1, 0.8), "wall_friction": (0.3, 1.0), "rolling_resistan
 SD = np.array([0.8, 0.8, 0.05])
 
 
+@pytest.fixture(autouse=True, scope="module")
+def _short_chains():
+    """Of a process's parameters: closed forms need no more."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(emulator, "STEPS", 50)
+        yield
+
+
 def priors(names=RANGES):
     return {name: question.Prior(*RANGES[name]) for name in names}
 
@@ -67,13 +75,13 @@ def test_the_spread_may_grow_with_the_number():
 def test_few_runs_do_not_make_an_emulator_sure():
     """Of 12 runs that scatter as much as they differ: what it says of the means is off by no more than it knows."""
     off = []
-    for seed in range(6):
+    for seed in range(4):
         unit, random = scipy.stats.qmc.Sobol(2, seed=seed).random(16)[:12], np.random.default_rng(seed)
         values = np.sin(4 * unit[:, :1]) + 0.7 * random.standard_normal((12, 1))
         tried = random.uniform(size=(50, 2))
         means, own, _ = emulator.Emulator(unit, values, np.full((12, 1), np.nan), ["x"]).predict(tried)
         off.append(np.mean(((means - np.sin(4 * tried[:, :1])) / own) ** 2))
-    assert np.mean(off) < 1.7  # 1 were it all known, with 6 designs to 0.4
+    assert np.mean(off) < 1.7  # 1 on the average, of 4 designs to 0.3
 
 
 def test_regions_of_ninety_per_cent_hold_the_truth(emulated):
