@@ -82,7 +82,8 @@ def power(limits, judge, realisations, runs):
         below = weights @ scipy.stats.norm.cdf((angle.drawn(unit, random)[0, 0] + np.array([0, BIAS])[:, None] - means) / deviations).T
         told.append(2 * np.minimum(below, 1 - below) < level)
     plain, biased = np.mean(told, axis=0)
-    return {"realisations": realisations, "design_runs": runs, "expected_sd_deg": float(np.median(sd)), "told": float(biased), "told_without_bias": float(plain)}
+    return {"realisations": realisations, "design_runs": runs, "expected_sd_deg": float(np.median(sd)), "told": float(biased),
+            "told_without_bias": float(plain)}
 
 
 def main():

@@ -1,6 +1,7 @@
 """The posterior of the unknowns: prior, likelihood by emulators, samples, and whether anything in the ranges explains the data."""
 
 import dataclasses
+import re
 
 import numpy as np
 import scipy.stats
@@ -11,7 +12,7 @@ WALKERS, FIRST_STEPS, MOST_STEPS = 128, 250, 8000
 LONG_ENOUGH = 20  # correlation times that the chains have to last
 DRAWN = 4096  # points of the prior from which the chains start
 REPLICATES = 400  # data sets drawn from the posterior, against which the misfit is judged
-MISFIT = 0.01  # share of them that fit as badly: below it the data are called a misfit
+MISFIT = 0.01  # share of them that contradict themselves as much: below it the data are called a misfit
 
 
 def require_emcee():
@@ -39,7 +40,7 @@ class Datum:
 
     def entries(self):
         """[(name, numbers)] of what was measured at once: a profile is one entry."""
-        names = [name.split("(")[0] for name in self.emulator.names]
+        names = [re.sub(r"\((z|I)=[^()]*\)$", "", name) for name in self.emulator.names]
         return [(name, [k for k, other in enumerate(names) if other == name]) for name in dict.fromkeys(names)]
 
     def squares(self, means, deviations, values=None, without=()):
