@@ -182,6 +182,9 @@ def read(_, page, text):
         text[0] = of_root("README.md", "") + links_within(text[0], ROOT / "docs")
     elif page == "install":
         text[0] = "# Install\n\n" + of_root("README.md", "Install", "First result").removeprefix("## Install\n") + "\n" + links_within(text[0].split("\n\n", 2)[2], ROOT / "docs")
+    elif page == "browser" and "DRUMLIN_BROWSER" in os.environ:  # the page itself in place of its picture
+        text[0] = links_within(re.sub(r"!\[.*", '```{raw} html\n<iframe src="_static/browser/index.html" title="A drum" style="width:100%; height:820px; border:0"></iframe>\n```', text[0]),
+                               ROOT / "docs")
     elif (pathlib.Path(ROOT / "docs" / page).with_suffix(".md")).exists():
         text[0] = with_keys(links_within(text[0], (ROOT / "docs" / page).parent))
     if page == "gallery/README":  # what is indented has no language

@@ -3,12 +3,11 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <mutex>
-#include <numbers>
 #include <optional>
+#include <type_traits>
 
 #include "apps/json/drawn_walls.hpp"
 #include "apps/python/bindings.hpp"
@@ -20,6 +19,7 @@
 #include "particles/io/snapshot_file.hpp"
 #include "particles/scene/scene_file.hpp"
 #include "particles/stepping/run_through.hpp"
+#include "particles/stepping/stepped_scene.hpp"
 
 namespace py = pybind11;
 
@@ -74,22 +74,36 @@ constexpr int most_threads = 256;  // as the commands take them
 /// A simulation that one thread of Python at a time steps or looks at; the others wait for it. The lock of
 /// the interpreter is given away before that is asked for, so that nobody who has one of them waits for the
 /// other.
-class SteppedScene {
+class SharedScene {
  public:
-  SteppedScene(const std::optional<std::string>& text, const std::string& name,
-               const std::vector<std::string>& overrides, int threads)
-      : scene_(scene_of(text, name, overrides)) {
-    simulation_ = std::make_unique<Simulation>(with_grains(), checked(threads));
+  SharedScene(const std::optional<std::string>& text, const std::string& name,
+              const std::vector<std::string>& overrides, int threads) {
+    Scene scene = scene_of(text, name, overrides);
+    auto simulation = std::make_unique<Simulation>(with_grains(scene), checked(threads));
+    stepped_.emplace(std::move(scene), std::move(simulation));
   }
   /// Goes on from a file that save() wrote.
-  SteppedScene(const std::string& file, int threads) {
+  SharedScene(const std::string& file, int threads) {
     particles::Checkpoint checkpoint = particles::read_checkpoint(file);
-    scene_ = particles::parse_scene(checkpoint.scene, "scene");
-    simulation_ = std::make_unique<Simulation>(with_grains(), std::move(checkpoint.state), checked(threads));
+    Scene scene = particles::parse_scene(checkpoint.scene, "scene");
+    auto simulation =
+        std::make_unique<Simulation>(with_grains(scene), std::move(checkpoint.state), checked(threads));
+    stepped_.emplace(std::move(scene), std::move(simulation));
+  }
+
+  /// What `of` copies out of the simulation, or does with it, while no step is at work on it.
+  template <class Of>
+  auto look(const Of& of) const {
+    const OthersRun others_run;
+    const std::lock_guard turn(turn_);
+    if constexpr (std::is_invocable_v<Of, particles::SteppedScene&>)
+      return of(*stepped_);
+    else
+      return of(stepped_->simulation());
   }
 
   py::dict step() {
-    const particles::StepReport report = stepped();
+    const auto report = look([](particles::SteppedScene& s) { return s.step(); });
     const auto& solve = report.solve;
     return py::dict(py::arg("contacts") = report.contacts, py::arg("impacts") = report.impacts,
                     py::arg("converged") = particles::is_converged(report), py::arg("sweeps") = solve.sweeps,
@@ -99,19 +113,11 @@ class SteppedScene {
                     py::arg("overlap_max") = report.overlap.max);
   }
 
-  /// What `of` copies out of the simulation, or does with it, while no step is at work on it.
-  template <class Of>
-  auto look(const Of& of) const {
-    const OthersRun others_run;
-    const std::lock_guard turn(turn_);
-    return of(*simulation_);
-  }
-
   /// A view of an array of the grains; a copy where grains come and go, for these arrays move.
   py::array view(std::vector<double> particles::Bodies::*member) const {
-    if (particles::changes_grains(simulation_->scene()))
+    if (particles::changes_grains(stepped_->simulation().scene()))
       return owned(look([&](const Simulation& s) { return s.state().bodies.*member; }));
-    const std::vector<double>& values = simulation_->state().bodies.*member;
+    const std::vector<double>& values = stepped_->simulation().state().bodies.*member;
     return read_only(py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data(),
                                          py::cast(this, py::return_value_policy::reference)));
   }
@@ -135,9 +141,9 @@ class SteppedScene {
   }
   void save(const std::string& file) {
     particles::Checkpoint checkpoint;
-    checkpoint.state = look([&](Simulation& s) {
-      checkpoint.scene = particles::scene_text(scene_);
-      return s.state();
+    checkpoint.state = look([&](particles::SteppedScene& s) {
+      checkpoint.scene = particles::scene_text(s.scene());
+      return s.simulation().state();
     });
     particles::write_checkpoint(file, checkpoint);
   }
@@ -147,31 +153,14 @@ class SteppedScene {
     look([&](Simulation& s) { s.set_velocities(v_x, v_z, spin); });
   }
   void set_friction(double grain_grain, double grain_wall) {
-    change_stage([&](particles::Stage& stage) { stage.effects.friction = {grain_grain, grain_wall}; });
+    look([&](particles::SteppedScene& s) { s.set_friction(grain_grain, grain_wall); });
   }
   void set_gravity(double x, double z) {
-    change_stage([&](particles::Stage& stage) {
-      const Scales& scales = simulation_->scales();
-      const double down = x == 0 && z < 0 ? -90 : std::atan2(z, x) * 180 / std::numbers::pi;
-      stage.gravity = {std::hypot(x, z) * scales.length_m / (scales.time_s * scales.time_s), down};
-    });
+    look([&](particles::SteppedScene& s) { s.set_gravity(x, z); });
   }
-  /// The wall moves on with a velocity and, clockwise, a rotation about a point, both of this moment.
   void set_wall(const std::string& wall, std::array<double, 2> velocity, double spin,
                 std::array<double, 2> center) {
-    const auto change = [&](particles::Stage& stage) {
-      const Scales& scales = simulation_->scales();
-      const auto& state = simulation_->state();
-      const double since = simulation_->next_stage() == state.stage ? state.time_in_stage : 0;
-      const double mm = 1e3 * scales.length_m, mm_s = 1e3 * scales.velocity_m_s();
-      std::erase_if(stage.motions, [&](const auto& motion) { return motion.wall == wall; });
-      for (int k : {0, 1}) center[k] = (center[k] - velocity[k] * since) * mm, velocity[k] *= mm_s;
-      if (spin != 0)
-        stage.motions.push_back(
-            {wall, particles::Rotation{spin * 30 / std::numbers::pi / scales.time_s, center}});
-      stage.motions.push_back({wall, particles::Translation{velocity}});
-    };
-    change_stage(change, wall);
+    look([&](particles::SteppedScene& s) { s.set_wall(wall, velocity, spin, center); });
   }
 
  private:
@@ -183,47 +172,17 @@ class SteppedScene {
   }
 
   /// The scene as told, with the grains of another run in place of its name.
-  Scene with_grains() const {
-    Scene scene = scene_;
+  static Scene with_grains(Scene scene) {
     if (const auto* requested = std::get_if<particles::GrainsOfRun>(&scene.grains.source))
       scene.grains.source = particles::grains_of_run(*requested).grains;
     return scene;
   }
 
-  /// Changes the stage of the next step as a scene file could, whose checks it passes.
-  template <class Change>
-  void change_stage(const Change& change, const std::string& moved = "") {
-    look([&](Simulation& s) {
-      Scene scene = scene_;
-      particles::Stage& stage = scene.stages[s.next_stage()];
-      if (stage.turns) stage.duration_s = particles::duration_s(stage), stage.turns.reset();
-      change(stage);
-      scene = particles::parse_scene(particles::scene_text(scene), "scene");
-      s.change_stage(scene.stages[s.next_stage()], moved);
-      scene_ = scene;
-    });
-  }
-
-  particles::StepReport stepped() {
-    const OthersRun others_run;
-    const std::lock_guard turn(turn_);
-    if (!fault_.empty()) throw NotConvergedError(fault_);
-    if (simulation_->finished()) throw InputError("the scene is finished: there is no further step");
-    try {
-      return particles::checked_step(*simulation_);
-    } catch (const std::exception& error) {
-      fault_ = error.what();
-      throw;
-    }
-  }
-
   mutable std::mutex turn_;
-  Scene scene_;  // with what setters changed
-  std::unique_ptr<Simulation> simulation_;
-  std::string fault_;  // of a step that must not be built upon
+  mutable std::optional<particles::SteppedScene> stepped_;  // made by each constructor
 };
 
-py::dict scales_of(const SteppedScene& scene) {
+py::dict scales_of(const SharedScene& scene) {
   const Scales scales = scene.look([](const Simulation& s) { return s.scales(); });
   return py::dict(py::arg("length_m") = scales.length_m, py::arg("time_s") = scales.time_s,
                   py::arg("density_kg_m3") = scales.density_kg_m3,
@@ -249,26 +208,26 @@ void add_simulation(py::module_& module) {
       },
       py::arg("text"), py::arg("name"), py::arg("overrides"));
 
-  py::class_<SteppedScene> scene(module, "SteppedScene");
+  py::class_<SharedScene> scene(module, "SteppedScene");
   refuse_new(scene);
   module.def("stepped_scene",
              [](const Text& text, const std::string& name, const std::vector<std::string>& overrides,
-                int threads) { return std::make_unique<SteppedScene>(text, name, overrides, threads); });
-  scene.def("step", &SteppedScene::step);
+                int threads) { return std::make_unique<SharedScene>(text, name, overrides, threads); });
+  scene.def("step", &SharedScene::step);
   module.def("continued_scene", [](const std::string& file, int threads) {
-    return std::make_unique<SteppedScene>(file, threads);
+    return std::make_unique<SharedScene>(file, threads);
   });
   module.def("drawn_of_snapshot", &drawn_of_snapshot);
-  scene.def("drawn", &SteppedScene::drawn);
-  scene.def("save_snapshot", &SteppedScene::save_snapshot);
-  scene.def("save", &SteppedScene::save);
-  scene.def("set_velocities", &SteppedScene::set_velocities);
-  scene.def("set_friction", &SteppedScene::set_friction);
-  scene.def("set_gravity", &SteppedScene::set_gravity);
-  scene.def("set_wall", &SteppedScene::set_wall);
+  scene.def("drawn", &SharedScene::drawn);
+  scene.def("save_snapshot", &SharedScene::save_snapshot);
+  scene.def("save", &SharedScene::save);
+  scene.def("set_velocities", &SharedScene::set_velocities);
+  scene.def("set_friction", &SharedScene::set_friction);
+  scene.def("set_gravity", &SharedScene::set_gravity);
+  scene.def("set_wall", &SharedScene::set_wall);
   scene.def_property_readonly("scales", &scales_of);
   const auto number = [&](const char* name, auto of) {
-    scene.def_property_readonly(name, [of](const SteppedScene& s) { return s.look(of); });
+    scene.def_property_readonly(name, [of](const SharedScene& s) { return s.look(of); });
   };
   number("finished", [](const Simulation& s) { return s.finished(); });
   number("steps", [](const Simulation& s) { return s.state().step; });
@@ -280,13 +239,13 @@ void add_simulation(py::module_& module) {
   number("walls", [](const Simulation& s) { return s.walls().names; });
   number("wall_of_shape", [](const Simulation& s) { return s.walls().wall_of_shape; });
   const auto array = [&](const char* name, std::vector<double> particles::Bodies::*member) {
-    scene.def_property_readonly(name, [member](const SteppedScene& s) { return s.view(member); });
+    scene.def_property_readonly(name, [member](const SharedScene& s) { return s.view(member); });
   };
   using particles::Bodies;
   array("x", &Bodies::x), array("z", &Bodies::z), array("v_x", &Bodies::v_x), array("v_z", &Bodies::v_z);
   array("spin", &Bodies::spin), array("radius", &Bodies::radius);
   const auto copied = [&](const char* name, auto of) {
-    scene.def_property_readonly(name, [of](const SteppedScene& s) { return owned(s.look(of)); });
+    scene.def_property_readonly(name, [of](const SharedScene& s) { return owned(s.look(of)); });
   };
   copied("id", [](const Simulation& s) { return s.state().bodies.id; });
   copied("mass", &masses);

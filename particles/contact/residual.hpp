@@ -145,7 +145,8 @@ template <class Problem>
 ResidualSums residual_sums_of(const Problem& problem, std::span<const double> r,
                               Velocities<typename Problem::Delassus>& velocities, ParallelLoops& loops) {
   const auto& W = problem.W;
-  auto& [bodies, u] = velocities;
+  auto& bodies = velocities.bodies;
+  auto& u = velocities.contacts;
   if constexpr (of_discs<Problem>) {
     W.load(bodies, r, loops);
     resize_closely(u, problem.q.size());

@@ -198,7 +198,7 @@ bool SweepPlanner::plan(std::span<const std::int32_t> slice_of_body, std::span<c
 void SweepPlanner::colour(int slice, std::span<const std::int32_t> i, std::span<const std::int32_t> j,
                           std::span<std::int32_t> order) {
   const std::int32_t begin = slice == 0 ? 0 : start_[slice - 1], end = start_[slice];
-  const auto contacts = std::span(by_slice_).subspan(begin, end - begin);
+  const auto contacts = std::span<const std::int32_t>(by_slice_).subspan(begin, end - begin);
   groups_[slice].clear();
   std::vector<std::int32_t> left;  // of bodies with more contacts than a mask has bits: served in rounds
   std::int32_t first = begin;
@@ -221,7 +221,7 @@ std::int32_t SweepPlanner::colour_round(std::span<const std::int32_t> served, st
     if (moves(j[a], bodies)) used_[j[a]] = 0;
   }
   std::array<std::int32_t, most + 1> start{};
-  const auto colours = std::span(colour_).subspan(first, served.size());
+  const auto colours = std::span<std::int8_t>(colour_).subspan(first, served.size());
   for (std::size_t k = 0; k < served.size(); ++k) {
     const std::int32_t a = served[k];
     const bool pair = moves(j[a], bodies);

@@ -5,7 +5,7 @@
 namespace drumlin::particles {
 
 void release_large_arrays([[maybe_unused]] int bytes) {
-#ifdef M_MMAP_THRESHOLD
+#ifdef M_MMAP_MAX
   constexpr int most_arrays = 1 << 16;  // the default of the C library
   (void)::mallopt(M_MMAP_MAX, most_arrays);
   (void)::mallopt(M_MMAP_THRESHOLD, bytes);

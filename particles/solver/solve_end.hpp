@@ -17,6 +17,8 @@ struct SweptBlocks {
   Keep keep;
   Residual residual;
 };
+template <class... Of>  // compilers that deduce it for aggregates need no guide
+SweptBlocks(Of...)->SweptBlocks<Of...>;
 
 /// Ends one solve in blocks. While the steps of the sweeps say that the residual is far, three of four
 /// estimates are left out; where an estimate is small enough the residual itself decides. In single precision

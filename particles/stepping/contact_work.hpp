@@ -71,7 +71,7 @@ void add_contact_work(const StepInput& step, const StepContacts& contacts, const
       const double u_t = tangential_part(pair, u);
       add_work(r_t * (mean.spin.empty() ? u_t : surface_sliding(u_t, pair, mean)), ledger.friction, ledger);
     }
-    const auto add_law_work = [&](const auto& law, std::optional<double>& work) {
+    const auto add_law_work = [&, r_c = r_c](const auto& law, std::optional<double>& work) {
       if constexpr (requires { law->attraction(pair, step.materials()); })
         if (law) add_work(-step.time_step * law->attraction(pair, step.materials()) * u_n, *work, ledger);
       if constexpr (dim == 3 && requires { law->radius_ratio(pair, mean); }) {

@@ -37,8 +37,8 @@ class Simulation {
   // What a caller changes between two steps. A continued run knows it: of scene() and state() it is the same.
   /// The stage of the next step.
   int next_stage() const;
-  /// Takes over from the next step on what `changed` says of its stage: length, gravity, coefficients and
-  /// motions. `moved`: the wall whose motions are others, which goes on from where it is. Throws InputError
+  /// Takes over from the next step on what `changed` says of its stage: length, gravity, coefficients,
+  /// motions and cell. `moved`: the wall whose motions are others, which goes on from where it is. Throws InputError
   /// where the stage depends on how that wall moves.
   void change_stage(const Stage& changed, const std::string& moved = "");
   /// Gives the grains other velocities, one for each. Throws InputError where one is not finite or faster

@@ -53,6 +53,7 @@ void Simulation::change_stage(const Stage& changed, const std::string& moved) {
   if (!moved.empty()) require_free(stage, moved);
   stage.duration_s = changed.duration_s, stage.turns = changed.turns;
   stage.gravity = changed.gravity, stage.effects = changed.effects, stage.motions = changed.motions;
+  stage.cell = changed.cell;
   if (changes_gravity(scene_) && !state_.gravity) state_.gravity = scene_.effects.gravity;
   const Walls& walls = setting_.walls;
   const auto w = std::find(walls.names.begin(), walls.names.end(), moved) - walls.names.begin();

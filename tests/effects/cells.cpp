@@ -1,11 +1,15 @@
 // The cell without walls: periodic in x and z, sheared after Lees and Edwards, deformed at given rates,
 // pressed.
 
+#include "coupling/core/basics/errors.hpp"
 #include "particles/detection/contact_list.hpp"
 #include "particles/effects/moving_cell.hpp"
 #include "particles/scene/random.hpp"
+#include "particles/scene/scene_file.hpp"
 #include "particles/stepping/run_through.hpp"
+#include "particles/stepping/stepped_scene.hpp"
 #include "tests/effects/drums.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace drumlin::cells_test {
 using namespace particles;
@@ -309,6 +313,20 @@ TEST(Cell, BooksItsWork) {
   EXPECT_LT(ledger.friction, 0);
   EXPECT_EQ(ledger.walls, 0);
   EXPECT_NEAR(closing_error(ledger), 0, 1e-9 * ledger.turnover);
+}
+
+TEST(Cell, AnotherShearRateHoldsFromTheNextStep) {
+  const auto stepped = [](const char* name) {
+    const Scene scene = read_scene(data_folder() / "scenes" / name);
+    return SteppedScene(scene, std::make_unique<Simulation>(scene));
+  };
+  SteppedScene cell = stepped("plane-shear-cell.toml");
+  (void)cell.step();
+  EXPECT_EQ(cell.simulation().state().cell->shear, 0);
+  cell.set_shear_rate(0.01);
+  (void)cell.step();
+  EXPECT_NEAR(cell.simulation().state().cell->shear, 0.01, 1e-15);
+  EXPECT_THROW(stepped("drum-smoke.toml").set_shear_rate(0.01), InputError);
 }
 
 TEST(Cell, AbsentItIsNoState) {

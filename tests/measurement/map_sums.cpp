@@ -90,10 +90,10 @@ TEST(MapSums, WallsAndFabricAddUpAndSlopesToNothing) {
 
     const FlowSnapshot in_frame = in_flow_frame(snapshot, graining.frame);
     double wall_force_x = 0, sides = 0;
-    for (const HalfBranch<2>& branch : in_frame.half_branches()) {
+    in_frame.each_half_branch([&](const HalfBranch<2>& branch) {
       sides += 0.5;
       if (branch.at_wall) wall_force_x += branch.force[0];
-    }
+    });
     EXPECT_NEAR(cell * total.wall_force[0], wall_force_x, 1e-11);
     EXPECT_NEAR(cell * (total.fabric[0] + total.fabric[2]), sides, 1e-5);  // normals are stored as floats
     EXPECT_NEAR(cell * total.carried.slope_x[0], 0, 1e-11);

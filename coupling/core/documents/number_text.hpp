@@ -1,9 +1,11 @@
 #pragma once
 // Numbers as they stand in text files, read whole or refused with their place.
 #include <charconv>
+#include <cstdlib>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace drumlin {
 
@@ -13,9 +15,20 @@ template <class T>
 std::optional<T> parsed_number(std::string_view text) {
   T value{};
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
+#ifndef __cpp_lib_to_chars  // Emscripten's library reads whole numbers alone; its strtod has no locale
+  if constexpr (std::is_floating_point_v<T>) {
+    const std::string whole(text);
+    char* end = nullptr;
+    value = static_cast<T>(std::strtod(whole.c_str(), &end));
+    const bool good = !whole.empty() && whole[0] > ' ' && end == whole.c_str() + whole.size();
+    return good ? std::optional(value) : std::nullopt;
+  } else
+#endif
+  {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+  }
 }
 
 /// Where a text stands, for the message of a refusal. The line counts from 1; 0: it has none.

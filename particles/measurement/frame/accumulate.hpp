@@ -36,7 +36,7 @@ template <class Binning, class Bins>
 void accumulate(const FlowSnapshot& snapshot, Binning&& binning, Bins& bins) {
   for (std::size_t i = 0; i < snapshot.x.size(); ++i)
     if (snapshot.shows(i)) add_grain(snapshot.grain(i), binning, bins);
-  for (const HalfBranch<2>& branch : snapshot.half_branches()) add_branch(branch, binning, bins);
+  snapshot.each_half_branch([&](const HalfBranch<2>& branch) { add_branch(branch, binning, bins); });
 }
 
 }  // namespace drumlin::particles

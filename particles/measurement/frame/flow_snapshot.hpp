@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <ranges>
 #include <vector>
 
 #include "particles/bodies/period.hpp"
@@ -50,14 +49,12 @@ struct FlowSnapshot {
   }
   /// Both sides of each contact in turn, that of i first; a wall has none. Each is made when it is looked at:
   /// stored they would take three times the memory of the contacts.
-  auto half_branches() const {
-    return std::views::iota(std::size_t{0}, 2 * contacts.size()) |
-           std::views::filter([this](std::size_t side) {
-             const FlowContact& contact = contacts[side / 2];
-             const std::int32_t grain = side % 2 == 0 ? contact.i : contact.j;
-             return grain >= 0 && shows(static_cast<std::size_t>(grain));
-           }) |
-           std::views::transform([this](std::size_t side) { return half_branch(side); });
+  template <class Visit>
+  void each_half_branch(const Visit& visit) const {
+    for (std::size_t side = 0; side < 2 * contacts.size(); ++side) {
+      const std::int32_t grain = side % 2 == 0 ? contacts[side / 2].i : contacts[side / 2].j;
+      if (grain >= 0 && shows(static_cast<std::size_t>(grain))) visit(half_branch(side));
+    }
   }
 
  private:

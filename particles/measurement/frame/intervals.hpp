@@ -2,7 +2,6 @@
 // 99 % intervals of averages over time-correlated samples: contiguous batches, delete-one jackknife over
 // them.
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -28,10 +27,11 @@ double jackknife_ci99(std::span<const double> leave_one_out);
 template <class Sums>
 void add_times(double factor, const Sums& from, Sums& to) {
   using Numbers = std::array<double, sizeof(Sums) / sizeof(double)>;
-  const Numbers more = std::bit_cast<Numbers>(from);
-  Numbers numbers = std::bit_cast<Numbers>(to);
+  // What std::bit_cast is made of: not every C++ library has that.
+  const Numbers more = __builtin_bit_cast(Numbers, from);
+  Numbers numbers = __builtin_bit_cast(Numbers, to);
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] += factor * more[i];
-  to = std::bit_cast<Sums>(numbers);
+  to = __builtin_bit_cast(Sums, numbers);
 }
 
 /// Something of the whole run, and the same without one batch each; `without` is empty with fewer than two.

@@ -147,7 +147,7 @@ std::vector<MapQuantity> known_fields(const MapSums::Snapshots& all) {
   for (const auto& [name, value, needs] : quantities) {
     const double period = drumlin::period_of(name);
     if (!needs || all.*needs > 0) known.push_back({name, value, period});
-    if (all.pairs > 0 && std::ranges::find(of_motion, value) != std::end(of_motion))
+    if (all.pairs > 0 && std::find(std::begin(of_motion), std::end(of_motion), value) != std::end(of_motion))
       displaced.push_back({std::string("displacement_") + name, value, period, true});
   }
   known.insert(known.end(), displaced.begin(), displaced.end());

@@ -78,10 +78,10 @@ void add_snapshot(const CoarseGraining& graining, const Snapshot& snapshot, cons
   const FlowFrame& frame = graining.frame;
   const Period period = period_of(snapshot);
   std::vector<Vector<2>> force(in_frame.x.size());  // of all contacts, per grain
-  for (const HalfBranch<2>& branch : in_frame.half_branches()) {
+  in_frame.each_half_branch([&](const HalfBranch<2>& branch) {
     for (int a = 0; a < 2; ++a) force[branch.grain][a] += branch.force[a];
     add_branch(branch, binning, sums.nodes);
-  }
+  });
   for (std::size_t i = 0; i < in_frame.x.size(); ++i) {
     if (!in_frame.shows(i)) continue;
     Point velocity{snapshot.v_x[i], snapshot.v_z[i]};

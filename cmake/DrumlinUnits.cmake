@@ -1,0 +1,25 @@
+# Their text is compiled once per instruction set, and says itself what it includes before that.
+set(DRUMLIN_KERNELS contact/squared_errors.cpp detection/pair_weights.cpp solver/coarse_kernels.cpp solver/sweep_kernels.cpp)
+get_filename_component(particles ${CMAKE_CURRENT_LIST_DIR}/../particles ABSOLUTE)
+list(TRANSFORM DRUMLIN_KERNELS PREPEND ${particles}/)
+
+# With CMAKE_UNITY_BUILD the files of a module (a folder) are compiled as one, so that headers and templates are worked through once: names in their
+# unnamed namespaces differ. Called once the targets of a folder are there.
+function(drumlin_unit_per_module)
+  get_property(targets DIRECTORY PROPERTY BUILDSYSTEM_TARGETS)
+  foreach(target ${targets})
+    get_target_property(type ${target} TYPE)
+    get_target_property(sources ${target} SOURCES)
+    if(NOT sources OR NOT type MATCHES "LIBRARY|EXECUTABLE")
+      continue()
+    endif()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+    foreach(source ${sources})
+      get_filename_component(folder ${source} DIRECTORY)
+      get_filename_component(module "${folder}" NAME)
+      if(source MATCHES "\\.cpp$" AND module)
+        set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${module})
+      endif()
+    endforeach()
+  endforeach()
+endfunction()
