@@ -50,7 +50,7 @@ def main():
         paces = [pace(page, kind, discs) for kind in ("drum", "shear") for discs in map(int, numbers or ["1000", "3000"])]
         version = page.call("Browser.getVersion")["product"]
     revision = subprocess.run([drumlin, "--version"], capture_output=True, text=True, check=True).stdout.split()[3].rstrip(",")
-    write(record, {"format": "drumlin-browser-cost-1", "command": "tests/benchmarks/drum_in_browser.py DRUMLIN PAGE RECORD.json",
+    write(pathlib.Path(record), {"format": "drumlin-browser-cost-1", "command": "tests/benchmarks/drum_in_browser.py DRUMLIN PAGE RECORD.json",
                    "steps_a_frame": STEPS_A_FRAME, "time_step_s": {"drum": 1e-3, "shear": 2.5e-4}, "pace": paces,
                    "bytes": (pathlib.Path(folder) / "engine.js").stat().st_size, "window": "1280 x 800", "browser": version, "load_before": load,
                    "provenance": {"revision": revision} | machine()})
