@@ -17,7 +17,7 @@ def kinds():
 
 def test_the_table_holds_what_rigid_discs_obey():
     columns = library().columns
-    assert len(kinds()) == 24 and int(library().header["runs"]) >= 250 and (columns["grains"] >= 400).all()
+    assert len(kinds()) == 26 and int(library().header["runs"]) >= 250 and (columns["grains"] >= 400).all()
     assert (abs(columns["sigma_zz_over_P"] - 1) < np.maximum(2 * columns["sigma_zz_over_P_ci99"], 0.03)).mean() > 0.95  # the cell holds its pressure
     assert np.allclose(columns["I"], columns["I_of_mass"] * 2 / math.sqrt(math.pi), rtol=1e-5)
     assert ((columns["nu"] > 0.6) & (columns["nu"] < 0.9)).all()
