@@ -45,7 +45,7 @@ const ready = new Promise(resolve => {
   thread.onmessage = ({data}) => {
     if (data.ready) resolve();
     if (data.picture) show(data.picture);
-    if (data.measured) [shown.measured] = [data.measured], tell();
+    if (data.measured) shown.measured = data.measured, tell();
     if (data.id === undefined) return data.fault && refuse(data.fault);
     const {resolve: answer, reject} = asked.get(data.id);
     asked.delete(data.id);

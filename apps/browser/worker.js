@@ -45,7 +45,7 @@ function work(engine) {
       const least = Math.floor(stepsAPicture / 2), twice = 2 * stepsAPicture;
       stepsAPicture = Math.max(1, Math.min(most, twice, Math.max(least, fit)));
       const picture = scene.picture();
-      postMessage({picture, took}, [picture.grains.buffer]);
+      postMessage({picture}, [picture.grains.buffer]);
       if (begun > measureAt) {
         postMessage({measured: scene.measured()});
         measureAt = performance.now() + MEASURE_EVERY;
@@ -70,5 +70,5 @@ function work(engine) {
   engine().then(made => {
     module = made;
     postMessage({ready: true});
-  });
+  }, error => postMessage({fault: words(error)}));
 }
