@@ -38,8 +38,8 @@ class Simulation {
   /// The stage of the next step.
   int next_stage() const;
   /// Takes over from the next step on what `changed` says of its stage: length, gravity, coefficients,
-  /// motions and cell. `moved`: the wall whose motions are others, which goes on from where it is. Throws InputError
-  /// where the stage depends on how that wall moves.
+  /// motions and cell. `moved`: the wall whose motions are others, which goes on from where it is. Throws
+  /// InputError where the stage depends on how that wall moves.
   void change_stage(const Stage& changed, const std::string& moved = "");
   /// Gives the grains other velocities, one for each. Throws InputError where one is not finite or faster
   /// than steps can follow, and in a scene with an energy ledger, which has no account for it.
