@@ -33,12 +33,14 @@ def _bodies_behind(s, frame, grains_frame, bodies, scales, first, second):
     """Images across a period, whose ids are beyond those of all grains, by the ids of their grains: (first, second, whether a row tells a new contact). The
     image lies along the normal, as far as the radii and the overlap say. Told from both sides are those of two grains that move, each beside the image of
     the other."""
+    if "overlap" not in frame.columns:  # of another program than MercuryDPM
+        return first, second, np.ones(len(first), bool)
     last = bodies.id.max()
     told = first <= last
     rows = np.flatnonzero(told & (second > last))
-    if "overlap" not in frame.columns or (told.all() and not len(rows)):
-        return first, second, np.ones(len(first), bool)
-    from scipy.spatial import cKDTree  # for MercuryDPM alone
+    if told.all() and not len(rows):
+        return first, second, told
+    from scipy.spatial import cKDTree
 
     by_id = np.argsort(bodies.id)
     center = np.array([grains_frame.values(axis, scales) for axis in scales.axes])[:, by_id]
