@@ -53,7 +53,8 @@ struct MeasureOptions {
           "Volume fraction of the bulk for --at; absent: of the fill at the origin")
         .needs("--at");
     d.add("--since", since, "s", anything(), "Snapshots from this time on alone: the start is not steady")
-        .excludes("--at");
+        .excludes("--at")
+        .excludes("--study");
     d.add("--slice-width", slice_width, "d", above(0), "Width of the slice, across its middle");
     d.add("--layer-thickness", layer_thickness, "d", at_least(1e-3), "Thickness of the layers");
     d.add("--position", position, "d", anything(),
