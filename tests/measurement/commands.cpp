@@ -269,7 +269,7 @@ TEST(CalibrateCommand, LeavesTheLawOfItsRuns) {
   EXPECT_EQ(fit.fitted_on, (std::vector<std::string>{"six", "ten"}));
   EXPECT_TRUE(fs::exists(folder / "rheology.png"));
   const Json record = Json::parse(file_text(folder / "rheology.json"));
-  EXPECT_EQ(record["forms"].size(), 3u);  // every form is scored, one is chosen
+  EXPECT_EQ(record["forms"].size(), 4u);  // every form is scored, one is chosen
   EXPECT_TRUE(record["well_posed"].get<bool>());
   EXPECT_TRUE(record["one_law"]["holds"].get<bool>());
   EXPECT_NEAR(record["held_out"][0]["bias"].get<double>(), 0, 0.003);
