@@ -93,10 +93,10 @@ def _fit(content):
     if not fit["is_misfit"] and fit["data"] <= len(content["unknowns"]):
         return [f"the data fit, but {fit['data']} numbers of {len(content['unknowns'])} unknowns nearly always do"]
     if not fit["is_misfit"]:
-        return [f"the data fit: {fit['share']:.0%} of the data sets that such grains give contradict themselves as much "
+        return [f"the data fit: {fit['share']:.0%} of data sets of such grains are as contradictory "
                 f"(chi square {fit['chi_square']:.1f} of {fit['data']} numbers)"]
-    words = [f"MISFIT: no grains in these ranges explain the data together: {fit['share']:.1%} of the data sets that they give contradict themselves as "
-             f"much (chi square {fit['chi_square']:.1f} of {fit['data']} numbers); the intervals below mean nothing until the cause is found"]
+    words = [f"MISFIT: no grains in these ranges explain the data together: {fit['share']:.1%} of data sets of such grains are as contradictory "
+             f"(chi square {fit['chi_square']:.1f} of {fit['data']} numbers); the intervals below mean nothing until the cause is found"]
     if len(fit["without"]) > 1:
         odd = min(fit["without"], key=fit["without"].get)
         words.append(f"{odd} contradicts the others most: chi square {fit['without'][odd]:.1f} without it")
