@@ -4,11 +4,8 @@ usage: infer_checks.py runs|judge LIMITS WORK [-o RECORD.json] [--executor local
   LIMITS, WORK  as of infer_truths.py, whose designs are used; runs lie in WORK/validation
 """
 
-import argparse
 import concurrent.futures
 import json
-import pathlib
-import tomllib
 import types
 
 import numpy as np
@@ -16,7 +13,7 @@ import scipy.stats
 
 import infer_truths
 from drumlin import _drumlin
-from drumlin.inference import command, design, posterior, question
+from drumlin.inference import design, posterior, question
 
 POINTS, SEEDS = 48, {"heap": 4, "drum": 2}  # further truths, and runs of each
 GRID = 4096  # points of the prior
@@ -87,17 +84,7 @@ def power(limits, judge, realisations, runs):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("step", choices=["runs", "judge"])
-    parser.add_argument("limits", type=pathlib.Path)
-    parser.add_argument("work", type=pathlib.Path)
-    parser.add_argument("-o", "--output", type=pathlib.Path)
-    parser.add_argument("--executor", default="local:2")
-    parser.add_argument("--processes", type=int, default=1)
-    given = parser.parse_args()
-    limits = tomllib.loads(given.limits.read_text(encoding="utf-8"))
-    asked = infer_truths.questions(limits, given.limits.parent.parent / "infer")
-    designs = {name: command.designs_of(one, given.work / "designs") for name, one in asked.items()}
+    given, limits, designs = infer_truths.call()
     if given.step == "runs":
         runs = [(run_of(limits, each, given.work, number, again), each.quantities) for name, those in designs.items() for each in those
                 for number in range(POINTS) for again in range(SEEDS[name])]

@@ -135,7 +135,8 @@ def design_of(each):
     return {"scene": each.scene.name} | {name: value for name, value in used.items() if name != "folder"}
 
 
-def main():
+def call():
+    """(words of the call, limits, {question: its designs})"""
     parser = argparse.ArgumentParser()
     parser.add_argument("step", choices=["runs", "judge"])
     parser.add_argument("limits", type=pathlib.Path)
@@ -147,6 +148,11 @@ def main():
     limits = tomllib.loads(given.limits.read_text(encoding="utf-8"))
     asked = questions(limits, given.limits.parent.parent / "infer")
     designs = {name: command.designs_of(one, given.work / "designs") for name, one in asked.items()}
+    return given, limits, designs
+
+
+def main():
+    given, limits, designs = call()
     if given.step == "runs":
         make_runs(limits, [each for those in designs.values() for each in those], given.work, given.executor)
         return
