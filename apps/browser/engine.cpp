@@ -59,6 +59,10 @@ class LiveScene {
     snapshots_.clear();
   }
 
+  double step_time() const {
+    const auto& scene = stepped_.scene();
+    return scene.stages[stepped_.simulation().next_stage()].time_step_s;
+  }
   int steps() const { return static_cast<int>(stepped_.simulation().state().step); }
   double seconds() const { return stepped_.simulation().state().time() * scales().time_s; }
   val x() const { return copied(stepped_.simulation().state().bodies.x); }
@@ -138,6 +142,7 @@ EMSCRIPTEN_BINDINGS(engine) {
       .function("set_friction", &LiveScene::set_friction)
       .function("turn", &LiveScene::turn)
       .function("shear", &LiveScene::shear)
+      .function("step_time", &LiveScene::step_time)
       .function("x", &LiveScene::x)
       .function("z", &LiveScene::z)
       .function("picture", &LiveScene::picture)

@@ -4,7 +4,7 @@
 const $ = id => document.getElementById(id);
 const KINDS = {
   drum: {
-    seconds: 1e-3, speed: {min: 2, max: 30, value: 15, unit: "rpm"}, fill: true, friction: 0.4,
+    speed: {min: 2, max: 30, value: 15, unit: "rpm"}, fill: true, friction: 0.4,
     overrides: ({discs, fill}) => {
       // A packing fills 0.8 of what it occupies; 3.305 mm: root mean square of the diameters.
       const radius = Math.sqrt(discs * 3.305 ** 2 / 4 / (0.8 * fill));
@@ -16,7 +16,7 @@ const KINDS = {
     axis: "depth z / d, below the surface",
   },
   shear: {
-    seconds: 2.5e-4, speed: {min: 2, max: 60, value: 18, unit: "1/s"}, fill: false, friction: 0.4,
+    speed: {min: 2, max: 60, value: 18, unit: "1/s"}, fill: false, friction: 0.4,
     overrides: ({discs}) => {
       const width = 64 * Math.sqrt(discs / 1000), height = 90 * Math.sqrt(discs / 1000);
       return [`grains.generated.count=${discs}`, `periodic_x.x_max_mm=${width}`, `periodic_z.z_max_mm=${height}`,
@@ -79,7 +79,7 @@ async function start() {
   Object.assign(shown, {picture: null, measured: null});
   const overrides = kind.overrides({discs: Number($("discs").value), fill: Number($("fill").value) / 100});
   try {
-    show(await ask("start", {text: SCENES[shown.kind], overrides, seconds: kind.seconds}));
+    show(await ask("start", {text: SCENES[shown.kind], overrides}));
     await change("friction");
     await change("speed");
     tell();

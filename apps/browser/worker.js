@@ -8,11 +8,11 @@ function work(engine) {
 
   // What the page may ask for.
   const answers = {
-    start({text, overrides, seconds}) {
+    start({text, overrides}) {
       if (scene) scene.delete();
       scene = undefined;
       scene = new module.LiveScene(text, overrides.join("\n"));
-      [stepTime, stepsAPicture, measureAt] = [seconds, 1, 0];
+      [stepTime, stepsAPicture, measureAt] = [scene.step_time(), 1, 0];
       return scene.picture();
     },
     play(on) {
@@ -23,6 +23,7 @@ function work(engine) {
     set_friction: values => scene.set_friction(...values),
     turn: values => scene.turn(...values),
     shear: values => scene.shear(...values),
+    step_time: () => scene.step_time(),
     places: () => ({x: scene.x(), z: scene.z()}),
     measured: () => scene.measured(),
     picture: () => scene.picture(),

@@ -1,6 +1,7 @@
 // drumlin flow: starts drumlin-flow, which stands beside this executable, and ends as it ends.
 #include "apps/flow/flow_options.hpp"
 #include "apps/process/interruption.hpp"
+#include "apps/process/program_files.hpp"
 #include "coupling/core/machine/child_process.hpp"
 
 namespace drumlin::apps {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "apps/process/interruption.hpp"
+#include "apps/process/program_files.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "coupling/core/machine/child_process.hpp"
 

@@ -360,34 +360,36 @@ def sizes():
     return table(["", *(f"{name}: {diameter:g} mm" if diameter == diameters[0] else f"{diameter:g}" for name in words.values() for diameter in diameters)], rows)
 
 
-def sphere_rows():
-    return read("spheres/incline.json")["runs"]
+def spheres():
+    return read("spheres/incline.json")
 
 
 def slopes_of_spheres():
     """What was measured of the core of each incline of spheres, beside the law of Jop et al."""
-    rows = []
-    for row in sphere_rows():
+    rows, limit = [], spheres()["limits"]["mu"]
+    for row in spheres()["runs"]:
         stress = row["mu"]["value"]
-        bold = "**" if abs(stress - row["mu_jop"]) > 0.03 else ""
+        bold = "**" if abs(stress - row["mu_jop"]) > limit else ""
         rows.append([f"{row['theta_deg']:.0f}", interval(row["mu"]), interval(row["I"]), number(row["I_jop"]), f"{bold}{stress - row['mu_jop']:+.3f}{bold}",
                      interval(row["N1_over_p"]), interval(row["N2_over_p"]), interval(row["nu"]), interval(row["coordination"])])
-    return table(["slope (deg)", "mu", "I", "I of Jop's law at tan(slope)", "mu less Jop's at I (0.03)", "(sigma_xx - sigma_zz)/p", "(sigma_zz - sigma_yy)/p", "nu", "contacts of a grain"], rows)
+    return table(["slope (deg)", "mu", "I", "I of Jop's law at tan(slope)", f"mu less Jop's at I ({limit})", "(sigma_xx - sigma_zz)/p", "(sigma_zz - sigma_yy)/p", "nu", "contacts of a grain"], rows)
 
 
 def law_of_spheres():
-    law = read("spheres/incline.json")["law"]
-    low, rise, scale = law["coefficients"]
+    record = spheres()
+    law, jop = record["law"], record["jop"]
+    theirs = jop[0], jop[1] - jop[0], jop[2]
     ranges = [f"{one['low']:.2f} to {one['high']:.2f}" if one["high"] < 10 else f"from {one['low']:.2f} on" for one in law["ranges"]]
     return table(["", "fitted", "99 % of the draws", "Jop et al."],
-                 [["mu_s", f"{low:.3f}", ranges[0], "0.383"], ["mu_2 - mu_s", f"{rise:.3f}", ranges[1], "0.260"], ["I_0", f"{scale:.3f}", ranges[2], "0.279"]])
+                 [[name, f"{ours:.3f}", within, f"{other:.3f}"] for name, ours, within, other in zip(("mu_s", "mu_2 - mu_s", "I_0"), law["coefficients"], ranges, theirs)])
 
 
 def flows_of_spheres():
-    flows = [(row, row["flow"]) for row in sphere_rows()]
-    return table(["slope (deg)", "surface speed: spheres", "continuum", "v_x, rms (0.15)", "its shape (0.05)"],
+    flows, limits_of = [(row, row["flow"]) for row in spheres()["runs"]], spheres()["limits"]
+    judged = [(name, limits_of[name]) for name in ("rms", "rms_of_shape")]
+    return table(["slope (deg)", "surface speed: spheres", "continuum", *(f"{words} ({limit})" for words, (_, limit) in zip(("v_x, rms", "its shape"), judged))],
                  [[f"{row['theta_deg']:.0f}", number(flow["surface_speed_of_spheres"]), number(flow["surface_speed"]),
-                   *(("**{:.3f}**" if flow[name] > limit else "{:.3f}").format(flow[name]) for name, limit in (("rms", 0.15), ("rms_of_shape", 0.05)))] for row, flow in flows])
+                   *(("**{:.3f}**" if flow[name] > limit else "{:.3f}").format(flow[name]) for name, limit in judged)] for row, flow in flows])
 
 
 TABLES = {

@@ -138,6 +138,17 @@ std::string shipped_scene_of_any_kind(const std::string& name) {
 
 std::string shipped_law(const std::string& name) { return shipped(name, "rheology", shipped_laws(), "law"); }
 
+fs::path program_beside(const std::string& name) {
+  const fs::path program = program_folder() / name;
+  if (!fs::exists(program))
+    throw InputError(
+        program.string() +
+        ": is missing: the continuum and runs on ranks need deal.II, PETSc and MPI, which a wheel does not "
+        "hold; install Debian's libdeal.ii-dev and libhdf5-openmpi-dev and build from source (target "
+        "programs, DRUMLIN_CONTINUUM=ON), or install the project's Debian package (docs/install.md)");
+  return program;
+}
+
 fs::path figures_folder() {
   if (const auto wheel = of_wheel()) return wheel->figures;
   return beside_program("the scripts that draw figures", "python/drumlin/figures",

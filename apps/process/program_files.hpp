@@ -23,6 +23,9 @@ std::string shipped_scene(const std::string& name);
 std::string shipped_flow_scene(const std::string& name);
 std::string shipped_law(const std::string& name);
 std::string shipped_scene_of_any_kind(const std::string& name);
+/// The program of this name in the folder of the running one. Throws InputError, which says what to install,
+/// if it is missing: the continuum is not built everywhere.
+std::filesystem::path program_beside(const std::string& name);
 /// The Python scripts that draw; the templates of pages stand beside it. Throws IoError likewise.
 std::filesystem::path figures_folder();
 /// The Python that draws: that of the wheel which the program is of, else the one of the build.

@@ -19,6 +19,7 @@ import whole_file
 plt = style.plt
 MARGIN = 3.0  # d
 JOP = (0.383, 0.643, 0.279)  # Jop, Forterre, Pouliquen 2006, glass beads
+LIMITS = {"mu": 0.03, "rms": 0.15, "rms_of_shape": 0.05}  # data/spheres/expected.md
 COLUMNS = ("nu", "coordination", "temperature", "I_invariant", "mu_invariant", "N1_over_p", "N2_over_p")
 
 
@@ -113,7 +114,7 @@ def main():
         row["flow"], lines = beside_flow(flow, row, curve)
         flows.append(lines)
     rows = [row for row, _ in found]
-    record = {"format": "drumlin-sphere-incline-1", "runs": rows} | ({"law": {name: law[name] for name in law if name != "curve"}} if law else {})
+    record = {"format": "drumlin-sphere-incline-1", "jop": JOP, "limits": LIMITS, "runs": rows} | ({"law": {name: law[name] for name in law if name != "curve"}} if law else {})
     whole_file.write_text(options.output, json.dumps(record, indent=1) + "\n")
     if options.picture:
         draw(rows, [curve for _, curve in found], law, flows, options.picture)

@@ -25,8 +25,8 @@ STEPPED = """(async () => {{ const from = performance.now(); for (let k = 0; k <
 
 
 def pace(page, kind, discs):
-    page.value(f"ask('play', false).then(() => ask('start', {{text: SCENES.{kind}, overrides: KINDS.{kind}.overrides({{discs: {discs}, fill: 0.5}}),"
-               f" seconds: KINDS.{kind}.seconds}})).then(() => {{ shown.kind = '{kind}'; shown.picture = null; }})")
+    page.value(f"ask('play', false).then(() => ask('start', {{text: SCENES.{kind}, overrides: KINDS.{kind}.overrides({{discs: {discs}, fill: 0.5}})}}))"
+               f".then(() => {{ shown.kind = '{kind}'; shown.picture = null; }})")
     page.value(f"ask('step', {BEFORE[kind]})")
     before = processor_seconds(page.process.pid)
     wall = page.value(STEPPED.format(FRAMES, STEPS_A_FRAME)) / 1000
@@ -34,7 +34,7 @@ def pace(page, kind, discs):
     before = processor_seconds(page.process.pid)
     page.value(f"ask('step', {FRAMES * STEPS_A_FRAME})")
     stepping = processor_seconds(page.process.pid) - before
-    return {"scene": kind, "discs": discs, "frames_per_processor_second": round(FRAMES / busy, 1), "frames_per_second": round(FRAMES / wall, 1),
+    return {"scene": kind, "discs": discs, "time_step_s": page.value("ask('step_time')"), "frames_per_processor_second": round(FRAMES / busy, 1), "frames_per_second": round(FRAMES / wall, 1),
             "steps_per_processor_second": round(FRAMES * STEPS_A_FRAME / stepping)}
 
 
@@ -51,7 +51,7 @@ def main():
         version = page.call("Browser.getVersion")["product"]
     revision = subprocess.run([drumlin, "--version"], capture_output=True, text=True, check=True).stdout.split()[3].rstrip(",")
     write(pathlib.Path(record), {"format": "drumlin-browser-cost-1", "command": "tests/benchmarks/drum_in_browser.py DRUMLIN PAGE RECORD.json",
-                   "steps_a_frame": STEPS_A_FRAME, "time_step_s": {"drum": 1e-3, "shear": 2.5e-4}, "pace": paces,
+                   "steps_a_frame": STEPS_A_FRAME, "pace": paces,
                    "bytes": (pathlib.Path(folder) / "engine.js").stat().st_size, "window": "1280 x 800", "browser": version, "load_before": load,
                    "provenance": {"revision": revision} | machine()})
 

@@ -34,7 +34,7 @@ def started(page, kind, discs):
     """Without a step, as the page starts it; returns its overrides."""
     asked(page, "play", False)
     overrides = page.value(f"KINDS.{kind}.overrides({{discs: {discs}, fill: 0.5}})")
-    page.value(f"ask('start', {{text: SCENES.{kind}, overrides: {json.dumps(overrides)}, seconds: KINDS.{kind}.seconds}}).then(() => 0)")
+    page.value(f"ask('start', {{text: SCENES.{kind}, overrides: {json.dumps(overrides)}}}).then(() => 0)")
     return overrides
 
 

@@ -114,7 +114,6 @@ TEST(ChildProcess, IsEndedByAGoneReaderAlthoughWeAreNot) {
 
 TEST(ChildProcess, IsMissed) {
   EXPECT_THROW(run_process({.program = "/nowhere/to/be/found"}), IoError);
-  EXPECT_THROW(program_beside("no-such-program"), InputError);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "apps/commands/all_commands.hpp"
 #include "apps/output/program.hpp"
+#include "apps/process/program_files.hpp"
 #include "coupling/core/basics/errors.hpp"
 #include "tests/support/says.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -223,6 +224,15 @@ TEST(CommandLine, ShowsHelpWithDefaultUnitAndRange) {
   expect_has(help, "--slice-width FLOAT=20");
   expect_has(help, "[d, > 0]");
   expect_has(shown("--help"), "solve-contacts");
+}
+
+TEST(CommandLine, SaysWhatToInstallForAProgramThatIsMissing) {
+  try {
+    (void)program_beside("no-such-program");
+    FAIL();
+  } catch (const InputError& error) {
+    expect_has(error.what(), "libdeal.ii-dev");
+  }
 }
 
 }  // namespace

@@ -80,6 +80,7 @@ def grains(axes, snapshot, values=None, **keywords):
             snapshot.save_snapshot(file := pathlib.Path(folder) / "000001.h5")
         drawn = json.loads(_drumlin.drawn_of_snapshot(str(file)) if is_read else snapshot._scene.drawn())  # pylint: disable=protected-access
         here = maps.Grains({"file": str(file), "walls": drawn["walls"]}, drawn["period"])
+    here.x, here.z, here.radius = (np.asarray(getattr(snapshot, name)) for name in ("x", "z", "radius"))  # as they are now
     view = maps.View([here])
     discs = view.add_grains(axes, here, **({"edgecolors": "0.3"} | keywords))
     if values is not None:

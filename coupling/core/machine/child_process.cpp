@@ -159,15 +159,4 @@ ProcessEnd run_process(const ProcessRequest& request) {
   return child.end();
 }
 
-fs::path program_beside(const std::string& name) {
-  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / name;
-  if (!fs::exists(program))
-    throw InputError(
-        program.string() +
-        ": is missing: the continuum and runs on ranks need deal.II, PETSc and MPI, which a wheel does not "
-        "hold; install Debian's libdeal.ii-dev and libhdf5-openmpi-dev and build from source (target "
-        "programs, DRUMLIN_CONTINUUM=ON), or install the project's Debian package (docs/install.md)");
-  return program;
-}
-
 }  // namespace drumlin

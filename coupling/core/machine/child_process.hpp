@@ -43,8 +43,4 @@ struct ProcessEnd {
 /// thread that lives on: the program ends with it.
 ProcessEnd run_process(const ProcessRequest& request);
 
-/// The program of this name in the folder of the running executable. Throws InputError, which says what to
-/// install, if it is missing.
-std::filesystem::path program_beside(const std::string& name);
-
 }  // namespace drumlin

@@ -32,6 +32,7 @@ class Datum:
     values: np.ndarray
     errors: np.ndarray
     realisations: int = 1
+    _inverse_factors: dict = dataclasses.field(default_factory=dict, repr=False)  # by the numbers left out
 
     def at(self, points):
         """(means, deviations of what is measured from them) at each point."""
@@ -46,9 +47,11 @@ class Datum:
     def squares(self, means, deviations, values=None, without=()):
         """Sum of squares of what the values are off, in independent units; without some of the numbers, as if each had an offset that is free."""
         kept = [k for k in range(len(self.values)) if k not in without]
-        inverse_factor = np.linalg.inv(np.linalg.cholesky(self.emulator.correlation[np.ix_(kept, kept)]))
+        key = tuple(without)
+        if key not in self._inverse_factors:
+            self._inverse_factors[key] = np.linalg.inv(np.linalg.cholesky(self.emulator.correlation[np.ix_(kept, kept)]))
         off = ((self.values if values is None else values) - means) / deviations
-        return np.sum((off[..., kept] @ inverse_factor.T) ** 2, axis=-1)
+        return np.sum((off[..., kept] @ self._inverse_factors[key].T) ** 2, axis=-1)
 
     def log_likelihood(self, points):
         means, deviations = self.at(points)
