@@ -227,12 +227,7 @@ TEST(CommandLine, ShowsHelpWithDefaultUnitAndRange) {
 }
 
 TEST(CommandLine, SaysWhatToInstallForAProgramThatIsMissing) {
-  try {
-    (void)program_beside("no-such-program");
-    FAIL();
-  } catch (const InputError& error) {
-    expect_has(error.what(), "libdeal.ii-dev");
-  }
+  expect_has(message_of<InputError>([] { (void)program_beside("no-such-program"); }), "libdeal.ii-dev");
 }
 
 }  // namespace
