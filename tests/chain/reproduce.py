@@ -28,7 +28,7 @@ for k in {{1..3000}}; do sleep 0.1; done
 # What compiles the other programs beside the particles.
 COMPILER = """#!/bin/bash
 [[ "$*" == *programs* ]] || exit 0
-echo $$ > '{compiling}'
+echo $$ > '{compiling}.new' && mv '{compiling}.new' '{compiling}'  # whole or not at all: the signal may come at any time
 for k in {{1..3000}}; do sleep 0.1; done
 """
 
@@ -84,6 +84,7 @@ def main():
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             interrupted(root, "build/drumlin", number)
             require(not compiling.exists() or not pathlib.Path("/proc", compiling.read_text().strip()).exists(), f"{number.name} leaves a compiler at work")
+            compiling.unlink(missing_ok=True)
         # A compiler that fails ends the call, once the particles are there.
         stub(root / "bin/cmake", '#!/bin/bash\n[[ "$*" != *programs* ]] || { echo no memory; exit 1; }\n')
         result = subprocess.run([root / "reproduce", "--smoke", "-o", root / "results"], capture_output=True, text=True, check=False,
