@@ -16,6 +16,7 @@ struct Row {
   std::optional<Flowing> flowing;
   std::optional<Verdict> verdict;
   std::string_view text;
+  std::optional<Origin> origin = std::nullopt;
 };
 
 constexpr std::string_view ways_of_open =
@@ -35,18 +36,23 @@ const Row next_steps[] = {
     {"run", in_open, always, ways_of_open},
     {"run", always, always, "drumlin measure {0}, or drumlin plot {0} --player"},
     {"measure", always, Verdict::rests,
-     "let it flow (a steeper slope, a faster wall, an open slot), run the scene again; drumlin report {0} "
+     "let it flow (a steeper slope, a faster wall, an open slot) in another run; drumlin report {0} "
      "shows what there is"},
-    {"measure", in_open, Verdict::other_program, "drumlin history {0}, or drumlin plot {0}"},
+    {"measure", in_open, always, "drumlin report {0}: no scene is there for a pair", Origin::other_program},
     {"measure", in_open, Verdict::unsteady,
      "drumlin measure {0} --since SECONDS --overwrite leaves the start out; drumlin pair {0}/scene.toml "
      "--run {0} --law LAW -o PAIR, or drumlin report {0}"},
     {"measure", in_open, always, ways_of_open},
     {"measure", always, Verdict::unsteady,
+     "drumlin calibrate {0} --accept-unsteady -o rheology.toml, or drumlin report {0}",
+     Origin::other_program},
+    {"measure", always, Verdict::unsteady,
      "drumlin run {0}/scene.toml -o {0} --extend {1:.6g}, then drumlin measure {0} --overwrite; or drumlin "
      "report {0}"},
-    {"measure", always, Verdict::other_program,
-     "drumlin calibrate {0} --accept-unsteady -o rheology.toml, or drumlin report {0}"},
+    {"measure", in_layers, Verdict::one_rate,
+     "drumlin calibrate {0} RUN2 RUN3 -o rheology.toml with runs at other rates: one I makes no law; or "
+     "drumlin report {0}",
+     Origin::other_program},
     {"measure", in_layers, Verdict::one_rate,
      "drumlin pair {0}/scene.toml --run {0} --law LAW -o PAIR (LAW: of drumlin law); one I makes no law: "
      "drumlin calibrate {0} RUN2 RUN3 -o rheology.toml with runs at other rates"},
@@ -61,10 +67,10 @@ const Row next_steps[] = {
 }  // namespace
 
 std::string next_step(std::string_view command, Flowing flowing, Verdict verdict, const std::string& output,
-                      double seconds) {
+                      double seconds, Origin origin) {
   const auto row = std::ranges::find_if(next_steps, [&](const Row& one) {
     return one.command == command && one.flowing.value_or(flowing) == flowing &&
-           one.verdict.value_or(verdict) == verdict;
+           one.verdict.value_or(verdict) == verdict && one.origin.value_or(origin) == origin;
   });
   if (row == std::end(next_steps)) throw std::logic_error("no next step after " + std::string(command));
   const char* kind = flowing == in_drum ? "drum" : flowing == in_layers ? "chute" : "silo";

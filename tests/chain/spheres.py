@@ -88,7 +88,8 @@ def main():
         run = folder / "run"
         text, _ = drumlin("import", folder / "lattice" / "import.toml", "-o", run)
         require(f"{SNAPSHOTS} snapshots of 96 grains" in text, text)
-        drumlin("measure", run, "--parts", "maps")
+        text, _ = drumlin("measure", run, "--parts", "maps")
+        require("next: drumlin " in text and "scene.toml" not in text, f"{text}\nan imported run has no scene")
         space, layers = table(run / "measured" / "space.csv"), table(run / "measured" / "profiles.csv")
         require(len(space) == LEVELS and len(layers) == LEVELS, f"{len(space)} layers")
         p = sum(PUSH) / 3

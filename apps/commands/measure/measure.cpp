@@ -293,10 +293,9 @@ Flowing flowing_of(const particles::MeasurementFrame& place) {
   return place.container_radius > 0 ? Flowing::drum : place.period > 0 ? Flowing::layers : Flowing::open;
 }
 
-Verdict verdict_of(const Request& request, const particles::Measurement& measured, const LogLaw& law) {
+Verdict verdict_of(const particles::Measurement& measured, const LogLaw& law) {
   if (!measured.steadiness.flows) return Verdict::rests;
-  if (!measured.steadiness.steady)
-    return request.run.imported.value_or(false) ? Verdict::other_program : Verdict::unsteady;
+  if (!measured.steadiness.steady) return Verdict::unsteady;
   constexpr double least_range = 3;  // of I: less leaves b of a + b ln I to chance
   return law.I_max >= least_range * law.I_min ? Verdict::done : Verdict::one_rate;
 }
@@ -358,8 +357,9 @@ int measure_run(const MeasureOptions& asked) {
 
   print_results(request, requested.folder, measured, scalars, options.verbose);
   print_accuracy(request, statement, scalars);
-  print_out(next_step("measure", flowing_of(measured.place), verdict_of(request, measured, friction.law),
-                      options.run().string(), sampled_seconds(measured)));
+  print_out(next_step("measure", flowing_of(measured.place), verdict_of(measured, friction.law),
+                      options.run().string(), sampled_seconds(measured),
+                      record.imported.value_or(false) ? Origin::other_program : Origin::drumlin));
   throw_if_figures_failed(requested.folder / requested.finished, failures);
   return static_cast<int>(ExitCode::done);
 }
