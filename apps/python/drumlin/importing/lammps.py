@@ -188,18 +188,23 @@ class Grains(Dump):
 
 
 class Contacts(Dump):
-    """Dumps of the style local. Forces of a second set of columns, as the tangential part of LAMMPS, are added to those of the first."""
+    """Dumps of the style local. Forces of a second set of columns, as the tangential part of LAMMPS, are added to those of the first. Without names of
+    columns they are those of `drumlin export`, with normals."""
 
     def __init__(self, files, source):
         axes = axes_of_files(source)
-        self.targets = ["i", "j"] + ["f_" + axis for axis in axes] + [f"f_{axis}{MORE}" for axis in axes]
-        self.names = source["contact_ids"] + source["contact_forces"]
-        super().__init__(files, source, "ITEM: ENTRIES", {"time": "TIMESTEP"} | dict(zip(self.targets, self.names)), weighs=True)
+        ids, forces = source["contact_ids"] or ["i", "j"], source["contact_forces"] or ["f" + axis for axis in axes]
+        targets = ["i", "j"] + ["f_" + axis for axis in axes] + [f"f_{axis}{MORE}" for axis in axes]
+        words = dict(zip(targets, ids + forces))
+        if not source["contact_forces"]:
+            words |= {"normal_" + axis: "n" + axis for axis in axes}
+        self.targets = {name: target for target, name in words.items()}
+        super().__init__(files, source, "ITEM: ENTRIES", {"time": "TIMESTEP"} | words, weighs=True)
 
     def meaning(self, name, box, units):
-        if name not in self.names:
+        target = self.targets.get(name)
+        if not target:
             return None
-        target = self.targets[self.names.index(name)]
         return Meaning(target, "force", force_unit(self.source, units)) if target[0] == "f" else Meaning(target)
 
     def _read_rows(self, text, count, box, units, frame):
