@@ -16,7 +16,6 @@ struct Row {
   std::optional<Flowing> flowing;
   std::optional<Verdict> verdict;
   std::string_view text;
-  std::optional<Origin> origin = std::nullopt;
 };
 
 constexpr std::string_view ways_of_open =
@@ -38,25 +37,27 @@ const Row next_steps[] = {
     {"measure", always, Verdict::rests,
      "let it flow (a steeper slope, a faster wall, an open slot) in another run; drumlin report {0} "
      "shows what there is"},
-    {"measure", in_open, always, "drumlin report {0}: no scene is there for a pair", Origin::other_program},
     {"measure", in_open, Verdict::unsteady,
      "drumlin measure {0} --since SECONDS --overwrite leaves the start out; drumlin pair {0}/scene.toml "
      "--run {0} --law LAW -o PAIR, or drumlin report {0}"},
     {"measure", in_open, always, ways_of_open},
     {"measure", always, Verdict::unsteady,
-     "drumlin calibrate {0} --accept-unsteady -o rheology.toml, or drumlin report {0}",
-     Origin::other_program},
-    {"measure", always, Verdict::unsteady,
      "drumlin run {0}/scene.toml -o {0} --extend {1:.6g}, then drumlin measure {0} --overwrite; or drumlin "
      "report {0}"},
-    {"measure", in_layers, Verdict::one_rate,
-     "drumlin calibrate {0} RUN2 RUN3 -o rheology.toml with runs at other rates: one I makes no law; or "
-     "drumlin report {0}",
-     Origin::other_program},
     {"measure", in_layers, Verdict::one_rate,
      "drumlin pair {0}/scene.toml --run {0} --law LAW -o PAIR (LAW: of drumlin law); one I makes no law: "
      "drumlin calibrate {0} RUN2 RUN3 -o rheology.toml with runs at other rates"},
     {"measure", always, always, "drumlin calibrate {0} -o rheology.toml, or drumlin report {0}"},
+    {"measure imported", always, Verdict::rests,
+     "let it flow in another run; the pictures in {0}/measured show what there is"},
+    {"measure imported", in_open, always,
+     "open the pictures in {0}/measured; drumlin export {0} --to vtkhdf shows the grains in ParaView"},
+    {"measure imported", always, Verdict::unsteady,
+     "drumlin calibrate {0} --accept-unsteady -o rheology.toml; pictures are in {0}/measured"},
+    {"measure imported", in_layers, Verdict::one_rate,
+     "drumlin calibrate {0} RUN2 RUN3 -o rheology.toml with runs at other rates: one I makes no law"},
+    {"measure imported", always, always,
+     "drumlin calibrate {0} -o rheology.toml; pictures are in {0}/measured"},
     {"calibrate", always, always,
      "drumlin new {2}-flow -o flow.toml, then drumlin flow flow.toml --rheology {0} -o FLOWRUN"},
     {"flow", in_drum, always, "drumlin compare RUN {0} -o REPORT"},
@@ -67,10 +68,10 @@ const Row next_steps[] = {
 }  // namespace
 
 std::string next_step(std::string_view command, Flowing flowing, Verdict verdict, const std::string& output,
-                      double seconds, Origin origin) {
+                      double seconds) {
   const auto row = std::ranges::find_if(next_steps, [&](const Row& one) {
     return one.command == command && one.flowing.value_or(flowing) == flowing &&
-           one.verdict.value_or(verdict) == verdict && one.origin.value_or(origin) == origin;
+           one.verdict.value_or(verdict) == verdict;
   });
   if (row == std::end(next_steps)) throw std::logic_error("no next step after " + std::string(command));
   const char* kind = flowing == in_drum ? "drum" : flowing == in_layers ? "chute" : "silo";

@@ -17,12 +17,9 @@ enum class Verdict {
   no_snapshots,  ///< nothing was kept that can be measured
 };
 
-/// Whose run it is: an imported one has no scene that could go on or make a pair.
-enum class Origin { drumlin, other_program };
-
-/// "next: ...\n" after `command`, with the folder or file that it left; `seconds`: simulated ones that were
-/// sampled.
+/// "next: ...\n" after `command` ("new flow", "measure imported": that kind of its results), with the folder
+/// or file that it left; `seconds`: simulated ones that were sampled.
 std::string next_step(std::string_view command, Flowing flowing, Verdict verdict, const std::string& output,
-                      double seconds = 0, Origin origin = Origin::drumlin);
+                      double seconds = 0);
 
 }  // namespace drumlin::apps

@@ -357,9 +357,9 @@ int measure_run(const MeasureOptions& asked) {
 
   print_results(request, requested.folder, measured, scalars, options.verbose);
   print_accuracy(request, statement, scalars);
-  print_out(next_step("measure", flowing_of(measured.place), verdict_of(measured, friction.law),
-                      options.run().string(), sampled_seconds(measured),
-                      record.imported.value_or(false) ? Origin::other_program : Origin::drumlin));
+  print_out(next_step(record.imported.value_or(false) ? "measure imported" : "measure",
+                      flowing_of(measured.place), verdict_of(measured, friction.law), options.run().string(),
+                      sampled_seconds(measured)));
   throw_if_figures_failed(requested.folder / requested.finished, failures);
   return static_cast<int>(ExitCode::done);
 }
