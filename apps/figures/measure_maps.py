@@ -12,7 +12,7 @@ import style
 
 UNKNOWN = "0.85"  # where an interval is wider than what is shown
 WIDEST_ANGLE = 15  # deg, half width of the interval from which on an angle is not shown
-SHOWN = ("nu", "v_x", "v_z", "coordination", "I", "p", "mu", "k", "axis_angle_deg", "residual_x", "residual_z")
+SHOWN = ("nu", "v_x", "v_z", "v_y", "coordination", "I", "p", "mu", "k", "axis_angle_deg", "residual_x", "residual_z")
 MOST_COLUMNS = 640  # more than a panel has pixels
 WIDEST_I = 1.0  # half width of the interval of I, as a share of I, from which on it is not shown
 
@@ -89,8 +89,9 @@ def draw_fields(axes, maps):
     panel(axes[0, 0], maps, speed, r"speed and streamlines  [$\sqrt{gd}$]", log_range(speed, 3))
     draw_streamlines(axes[0, 0], maps)
     draw_gravity(axes[0, 0], maps)
-    panel(axes[0, 1], maps, maps.field("nu"), style.axis_label("nu"), Normalize(0.7, 0.86))
-    panel(axes[0, 2], maps, maps.field("coordination"), style.axis_label("coordination"), Normalize(1.5, 4))
+    dense, contacts = ((0.45, 0.65), (1, 6)) if "v_y" in maps.fields else ((0.7, 0.86), (1.5, 4))  # of spheres, of discs
+    panel(axes[0, 1], maps, maps.field("nu"), style.axis_label("nu"), Normalize(*dense))
+    panel(axes[0, 2], maps, maps.field("coordination"), style.axis_label("coordination"), Normalize(*contacts))
 
     with np.errstate(invalid="ignore"):
         unsure = maps.half_width("I") > WIDEST_I * maps.fields["I"]

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "particles/measurement/layers/slice.hpp"
-#include "particles/measurement/maps/map_sums.hpp"
 #include "particles/measurement/spheres/space_layers.hpp"
+#include "tests/measurement/collected_maps.hpp"
 #include "tests/measurement/packings.hpp"
 
 namespace drumlin {
@@ -56,8 +56,8 @@ LayerGrid whole_grid(double period, double thickness, double z_to) {
 }
 
 SpaceSums space_sums(const LayerGrid& grid, const Snapshot& snapshot) {
-  SpaceSums sums{std::vector<SpaceSum>(grid.layers())};
-  add_snapshot(grid, snapshot, in_flow_frame(snapshot), sums);
+  SpaceSums sums = empty_space_layers(grid, 1).batches[0];
+  add_snapshot(grid, snapshot, in_flow_frame(snapshot, grid.frame), sums);
   return sums;
 }
 
@@ -67,7 +67,7 @@ double number(const ProfileSet& profiles, const char* column, std::size_t layer)
 
 ProfileSet profiles_of(const LayerGrid& grid, const Snapshot& snapshot) {
   SpaceLayers layers = empty_space_layers(grid, 1);
-  add_snapshot(grid, snapshot, in_flow_frame(snapshot), layers.batches[0]);
+  add_snapshot(grid, snapshot, in_flow_frame(snapshot, grid.frame), layers.batches[0]);
   return space_profiles(layers, 0);
 }
 
@@ -116,6 +116,123 @@ TEST(Spheres, CubicLatticeHasTheStressOfItsForces) {
   }
 }
 
+TEST(Spheres, MapOfACubicLatticeHasTheStressOfItsForces) {
+  // Splines with knots as far apart as the planes add up to 1 over them, and spread them by 1/3 d^2.
+  Snapshot s = cubic_lattice(4, 12, 1, 2, std::vector<double>(12, 3.0), -0.4);
+  for (std::size_t i = 0; i < s.z.size(); ++i) s.spheres->v_y[i] = 0.4 * s.z[i];
+  const FieldMap map = testing::collected_maps(coarse_graining(FlowFrame{}, 0, 4, 0, 12, 0.5, 1, 4), {s});
+  const double density = pi / 6, k_x = density * 0.3 * 0.3 / 3, k_y = density * 0.4 * 0.4 / 3,
+               k_xy = density * 0.3 * 0.4 / 3, p = (6 + k_x + k_y) / 3;
+  const double square = (std::pow(1 + k_x - p, 2) + std::pow(2 + k_y - p, 2) + std::pow(3 - p, 2)) / 2 +
+                        0.2 * 0.2 + k_xy * k_xy;  // of sigma_xz half is symmetric
+  const int checked = testing::each_node(
+      map, [](double, double z) { return z > 3 && z < 9; },
+      [&](double, double z, const auto& field) {
+        for (const auto& [name, expected] : {std::pair("nu", pi / 6),
+                                             {"coordination", 6.0},
+                                             {"v_y", 0.4 * z},
+                                             {"strain_rate", 0.3},
+                                             {"sigma_xx", 1 + k_x},
+                                             {"sigma_yy", 2 + k_y},
+                                             {"sigma_zz", 3.0},
+                                             {"sigma_xz", 0.4},
+                                             {"sigma_xy", k_xy},
+                                             {"sigma_yz", 0.0},
+                                             {"sigma_xx_kinetic", k_x},
+                                             {"sigma_yy_kinetic", k_y},
+                                             {"sigma_xy_kinetic", k_xy},
+                                             {"sigma_yz_kinetic", 0.0},
+                                             {"fabric_xx", 1.0 / 3},
+                                             {"fabric_yy", 1.0 / 3},
+                                             {"fabric_zz", 1.0 / 3},
+                                             {"fabric_xz", 0.0},
+                                             {"fabric_xy", 0.0},
+                                             {"fabric_yz", 0.0},
+                                             {"k", (1 + k_x) / 3},
+                                             {"p_space", p},
+                                             {"temperature", (k_x + k_y) / (3 * density)},
+                                             {"I_invariant", 0.5 / std::sqrt(p)},
+                                             {"mu_invariant", std::sqrt(square) / p},
+                                             {"N1_over_p", (k_x - 2) / p},
+                                             {"N2_over_p", (1 - k_y) / p}})
+          EXPECT_NEAR(field(name), expected, exact) << name;
+      });
+  EXPECT_GT(checked, 50);
+}
+
+TEST(Spheres, FabricOfAShearedPackingIsThatOfItsNormals) {
+  // Of each sphere one contact lies along (0.8, 0, 0.6), one along (0, 0.8, 0.6).
+  constexpr std::int32_t side = 8, levels = 12, count = side * side * levels;
+  Snapshot s = no_spheres(0, side);
+  for (std::int32_t i = 0; i < count; ++i) {
+    add_sphere(s, i % side + 0.5, i / side % side + 0.5, i / (side * side) + 0.5, 0.5, {0, 0, 0});
+    const std::int32_t j = (i + 5) % count;
+    s.spheres->contacts.push_back({i, j, {0.8, 0.6, 0}, {0.8, 0.6, 0}});
+    s.spheres->contacts.push_back({i, j, {0, 0.6, 0.8}, {0, 0.6, 0.8}});
+  }
+  const auto expect = [](const std::string& axes, double found, double expected) {
+    EXPECT_NEAR(found, expected, exact) << axes;
+  };
+  const auto expect_fabric = [&](const auto& value) {
+    for (const auto& [axes, expected] :
+         {std::pair("xx", 0.32), {"yy", 0.32}, {"zz", 0.36}, {"xz", 0.24}, {"xy", 0.0}, {"yz", 0.24}})
+      expect(axes, value((std::string("fabric_") + axes).c_str()), expected);
+  };
+  const ProfileSet layers = profiles_of(layer_grid(FlowFrame{}, side / 2.0, side + 2, 1, 0, levels, 0, 0), s);
+  for (std::size_t l = 1; l + 1 < levels; ++l)
+    expect_fabric([&](const char* name) { return number(layers, name, l); });
+  const FieldMap map =
+      testing::collected_maps(coarse_graining(FlowFrame{}, 0, side, 0, levels, 1, 1, 0), {s});
+  const int checked = testing::each_node(
+      map, [](double x, double z) { return x > 2.5 && x < side - 2.5 && z > 2.5 && z < levels - 2.5; },
+      [&](double, double, const auto& field) { expect_fabric(field); });
+  EXPECT_EQ(checked, 18);
+}
+
+TEST(Spheres, RingsOfAPackingThatTurnsAsOne) {
+  constexpr double spin = 0.7;
+  Snapshot s = no_spheres(0, 3);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-6, 6);
+  for (int i = 0; i < 2000; ++i) {
+    const double x = place(random), z = place(random);
+    add_sphere(s, x, place(random), z, 0.5, {spin * z, 0.2, -spin * x});  // clockwise
+  }
+  const ProfileSet rings = profiles_of(ring_grid(0, 0, 1, 6, 0), s);
+  for (std::size_t l = 1; l < 5; ++l) {
+    EXPECT_NEAR(number(rings, "v_t", l), spin * rings.z[l], exact);
+    EXPECT_NEAR(number(rings, "v_y", l), 0.2, exact);
+    EXPECT_NEAR(number(rings, "shear_rate", l), 0, exact);
+    EXPECT_NEAR(number(rings, "temperature", l), 0, exact);
+  }
+}
+
+TEST(Spheres, RingsHaveTheAxesOfEachPlace) {
+  // On the x axis the tangent is -z, on the z axis x. Spheres so small that axes do not turn along a branch.
+  constexpr double r = 1e-6, depth = 2, area = pi * (11 * 11 - 10 * 10);
+  Snapshot s = no_spheres(0, depth);
+  add_sphere(s, 10.5, 0, 0, r, {0, 0, 0});
+  s.spheres->contacts = {{0, -1, {1, 0, 0}, {1, 2, 3}}, {0, -1, {0, 0, 1}, {5, 7, 11}}};
+  ProfileSet rings = profiles_of(ring_grid(0, 0, 1, 11, 0), s);
+  for (const auto& [name, expected] : {std::pair("sigma_rr", 1.0),
+                                       {"sigma_tt", 0.0},
+                                       {"sigma_yy", 11.0},
+                                       {"sigma_rt", 2.0},
+                                       {"sigma_ry", -3.0},
+                                       {"sigma_ty", -7.0}})
+    EXPECT_NEAR(number(rings, name, 10) / r * area * depth, expected, 1e-6) << name;
+  add_sphere(s, 0, 0, 10.5, r, {0, 0, 0});
+  s.spheres->contacts = {{0, 1, {0.6, 0, 0.8}, {0, 0, 0}}};
+  rings = profiles_of(ring_grid(0, 0, 1, 11, 0), s);
+  for (const auto& [name, expected] : {std::pair("fabric_rr", 0.18),
+                                       {"fabric_tt", 0.18},
+                                       {"fabric_yy", 0.64},
+                                       {"fabric_rt", 0.0},
+                                       {"fabric_ry", 0.24},
+                                       {"fabric_ty", 0.24}})
+    EXPECT_NEAR(number(rings, name, 10), expected, 1e-6) << name;
+}
+
 TEST(Spheres, ColumnBearsItsWeight) {
   constexpr int levels = 8;
   std::vector<double> above;
@@ -144,6 +261,7 @@ TEST(Spheres, BinsAddUpToTheWhole) {
   const Snapshot s = random_spheres(side, depth);
   double volume = 0, momentum = 0, momentum_y = 0;
   Tensor<3> force_branch{};
+  std::array<double, 6> fabric{}, at_walls{};  // n_a n_b
   for (std::size_t i = 0; i < s.x.size(); ++i) {
     const double v = 4 * pi / 3 * std::pow(s.radius[i], 3);
     volume += v, momentum += v * s.v_x[i], momentum_y += v * s.spheres->v_y[i];
@@ -153,15 +271,25 @@ TEST(Spheres, BinsAddUpToTheWhole) {
         s.radius[static_cast<std::size_t>(c.i)] + (c.j < 0 ? 0 : s.radius[static_cast<std::size_t>(c.j)]);
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) force_branch[a][b] += c.force[a] * reach * c.normal[b];
+    for (int a = 0, k = 0; a < 3; ++a)
+      for (int b = a; b < 3; ++b) (c.j < 0 ? at_walls : fabric)[k++] += c.normal[a] * c.normal[b];
   }
-  for (const double thickness : {1.0, 0.37}) {
-    const SpaceSums sums = space_sums(whole_grid(side, thickness, 12.2), s);
+  for (const LayerGrid& grid :
+       {whole_grid(side, 1, 12.2), whole_grid(side, 0.37, 12.2), ring_grid(side / 2, 6, 1.3, 40, 0)}) {
     SpaceSum whole;
-    for (const SpaceSum& layer : sums.layers) add_times(1, layer, whole);
-    EXPECT_NEAR(whole.solid, volume, exact * volume);
+    for (const SpaceSum& layer : space_sums(grid, s).layers) add_times(1, layer, whole);
+    EXPECT_NEAR(whole.solid * depth, volume, (grid.rings ? 1e-7 : exact) * volume);
     EXPECT_NEAR(whole.grains, 300, exact);
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) EXPECT_NEAR(whole.force_branch[a][b], force_branch[a][b], 1e-11);
+    // Rings have the axes of each place: of the plane they keep the trace.
+    const auto expect = [&](double found, double right) { EXPECT_NEAR(found, right, 1e-11); };
+    const auto& of = whole.force_branch;
+    expect(of[2][2] * depth, force_branch[2][2]);
+    expect((of[0][0] + of[1][1]) * depth, force_branch[0][0] + force_branch[1][1]);
+    expect(whole.fabric[5], 2 * fabric[5]);  // both sides of each
+    expect(whole.fabric[0] + whole.fabric[3], 2 * (fabric[0] + fabric[3]));
+    for (int a = 0; a < 3 && !grid.rings; ++a)
+      for (int b = 0; b < 3; ++b) expect(of[a][b] * depth, force_branch[a][b]);
+    for (std::size_t k = 0; k < 6 && !grid.rings; ++k) expect(whole.fabric[k], 2 * fabric[k]);
   }
   // Seen along y: per depth, in layers, rings and at nodes.
   const FlowSnapshot seen = in_flow_frame(s);
@@ -179,19 +307,21 @@ TEST(Spheres, BinsAddUpToTheWhole) {
   MapSums maps = empty_sums(graining);
   add_snapshot(graining, s, seen, maps);
   double solid = 0, moved = 0, trace = 0;
-  AcrossNode across;
+  SpaceNode space;
   for (std::size_t node = 0; node < maps.nodes.size(); ++node) {
-    add_times(0.25, maps.across[node], across);
+    add_times(0.25, maps.space[node], space);
     solid += maps.nodes[node].solid / 4, moved += maps.nodes[node].motion.first[0] / 4;
     trace += (maps.nodes[node].force_branch[0][0] + maps.nodes[node].force_branch[1][1]) / 4;
   }
   EXPECT_NEAR(solid, volume / depth, exact * volume);
   EXPECT_NEAR(moved, momentum / depth, exact * volume);
   EXPECT_NEAR(trace, (force_branch[0][0] + force_branch[1][1]) / depth, 1e-10);
-  EXPECT_NEAR(across.motion.first[2], momentum_y / depth, exact * volume);
-  EXPECT_NEAR(across.yy, force_branch[2][2] / depth, 1e-10);
-  EXPECT_NEAR(across.xy, force_branch[0][2] / depth, 1e-10);
-  EXPECT_NEAR(across.yz, force_branch[2][1] / depth, 1e-10);
+  EXPECT_NEAR(space.solid, volume / depth, exact * volume);
+  EXPECT_NEAR(space.motion.first[2], momentum_y / depth, exact * volume);
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) EXPECT_NEAR(space.force_branch[a][b], force_branch[a][b] / depth, 1e-10);
+  for (std::size_t k = 0; k < 6; ++k)
+    EXPECT_NEAR(space.fabric[k], fabric[k] + at_walls[k] / 2, exact * 300);  // walls have one side
 }
 
 TEST(Spheres, TheViewHasTheStressOfSpace) {
@@ -201,12 +331,12 @@ TEST(Spheres, TheViewHasTheStressOfSpace) {
   LayerSums view{std::vector<LayerSum>(grid.layers()), {}};
   add_snapshot(grid, in_flow_frame(s), view);
   for (std::size_t l = 0; l < grid.layers(); ++l) {
-    EXPECT_NEAR(view.layers[l].solid * 5, space.layers[l].solid, 1e-11);
+    EXPECT_NEAR(view.layers[l].solid, space.layers[l].solid, 1e-11);
     EXPECT_EQ(view.layers[l].contacts, space.layers[l].contacts);
     for (int a = 0; a < 2; ++a) {
       EXPECT_NEAR(view.layers[l].motion.first[a], space.layers[l].motion.first[a], 1e-11);
       for (int b = 0; b < 2; ++b)
-        EXPECT_NEAR(view.layers[l].force_branch[a][b] * 5, space.layers[l].force_branch[a][b], 1e-11);
+        EXPECT_NEAR(view.layers[l].force_branch[a][b], space.layers[l].force_branch[a][b], 1e-11);
     }
   }
 }
@@ -256,8 +386,22 @@ TEST(Spheres, SlabOfDiscsTakenForSpheresMeasuresAsDiscs) {
     EXPECT_NEAR(a.motion.product(0, 1), b.motion.product(0, 1), exact);
     for (int u = 0; u < 2; ++u)
       for (int v = 0; v < 2; ++v) EXPECT_NEAR(a.force_branch[u][v], b.force_branch[u][v], exact);
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(a.fabric[k], b.fabric[k], 1e-6);  // of single precision
   }
+  const FieldMap of_disc = testing::collected_maps(graining, {discs}),
+                 of_sphere = testing::collected_maps(graining, {spheres});
+  for (const MapField& field : of_disc.fields) {
+    if (field.name == "omega") continue;
+    const std::vector<double>& same = of_sphere.field(field.name).value;
+    for (std::size_t node = 0; node < same.size(); ++node) {
+      const double right = field.value[node];
+      EXPECT_TRUE(std::isnan(right) ? std::isnan(same[node])
+                                    : std::abs(same[node] - right) <= 1e-9 * std::max(1.0, std::abs(right)))
+          << field.name << " " << same[node] << " " << right;
+    }
+  }
+  for (const char* across : {"v_y", "sigma_yy", "sigma_xy", "fabric_yy", "fabric_xy", "fabric_yz"})
+    for (const double value : of_sphere.field(across).value)
+      EXPECT_TRUE(!(std::abs(value) > exact)) << across << " " << value;
 }
 
 TEST(Spheres, PartsOfASphereAddUp) {

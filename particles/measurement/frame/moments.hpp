@@ -22,6 +22,11 @@ template <int D>
 using Tensor = std::array<Vector<D>, D>;
 
 template <int D>
+double length(const Vector<D>& v) {
+  if constexpr (D == 2) return std::hypot(v[0], v[1]);
+  return std::hypot(v[0], v[1], v[D - 1]);
+}
+template <int D>
 double trace(const Tensor<D>& t) {
   double sum = 0;
   for (int a = 0; a < D; ++a) sum += t[a][a];
@@ -38,7 +43,7 @@ struct GrainSample {
   double radius = 0, density = 1, contacts = 0, spin = 0;
   Vector<D> laboratory_velocity{},
       force{};       ///< of this instant; of all its contacts: maps alone ask for them
-  double depth = 0;  ///< D = 2: of the slab of spheres in which this one is seen; 0: a disc
+  double depth = 0;  ///< of the slab of spheres in which this one is seen; 0: a disc, D = 3: a sphere alone
 
   bool is_sphere() const { return D == 3 || depth > 0; }
   /// A volume in space, per depth of a slab.
@@ -46,7 +51,7 @@ struct GrainSample {
     const double disc = std::numbers::pi * radius * radius;
     return is_sphere() ? per_depth(disc * 4 * radius / 3) : disc;
   }
-  double per_depth(double volume) const { return D == 3 ? volume : volume / depth; }
+  double per_depth(double volume) const { return depth > 0 ? volume / depth : volume; }
   double mass() const { return density * area(); }
   /// J spin^2 / 2, J = m r^2 / 2, of spheres 2 m r^2 / 5.
   double spin_energy() const {

@@ -79,10 +79,8 @@ LayerGrid ring_grid(double centre_x, double centre_z, double thickness, double r
   return grid;
 }
 
-std::vector<double> RingBinning::cuts_of(const HalfBranch<2>& branch) const {
+std::vector<double> RingBinning::cuts_of(double x, double z, double toward_x, double toward_z) const {
   std::vector<double> cuts{0, 1};
-  const auto [x, z] = branch.at;
-  const auto [toward_x, toward_z] = branch.toward;
   // |p + s t|^2 = R^2 at the boundaries R between the least and the greatest distance.
   const double a = toward_x * toward_x + toward_z * toward_z;
   const double half = x * toward_x + z * toward_z, c = x * x + z * z;

@@ -110,29 +110,32 @@ class RingBinning {
  public:
   explicit RingBinning(const LayerGrid& grid) : grid_(grid) {}
 
-  template <class Action>
-  void each_part(const GrainSample<2>& grain, Action action) const;
-  template <class Action>
-  void each_centre(GrainSample<2> grain, Action action) const {
+  template <int D, class Action>
+  void each_part(const GrainSample<D>& grain, Action action) const;
+  template <int D, class Action>
+  void each_centre(GrainSample<D> grain, Action action) const {
     const double r = std::hypot(grain.at[0], grain.at[1]), ring = std::floor(r / grid_.thickness);
     if (!(ring < static_cast<double>(grid_.layers()))) return;
     const auto index = static_cast<std::size_t>(ring);
-    grain.velocity = polar(grain.at, grain.velocity);
-    grain.at = {0, r - grid_.z_of(index)};
+    grain.velocity = polar<D>(grain.at, grain.velocity);
+    grain.at[0] = 0, grain.at[1] = r - grid_.z_of(index);
     action(index, 1.0, grain);
   }
   /// Two Gauss points in each ring that a branch crosses.
-  template <class Action>
-  void each_share(const HalfBranch<2>& branch, Action action) const;
+  template <int D, class Action>
+  void each_share(const HalfBranch<D>& branch, Action action) const;
 
  private:
   /// Components along the tangent and the radius at a place; the centre itself counts as above.
-  static Vector<2> polar(const Vector<2>& at, const Vector<2>& v) {
+  template <int D>
+  static Vector<D> polar(const Vector<D>& at, Vector<D> v) {
     const double r = std::hypot(at[0], at[1]), r_x = r > 0 ? at[0] / r : 0, r_z = r > 0 ? at[1] / r : 1;
-    return {v[0] * r_z - v[1] * r_x, v[0] * r_x + v[1] * r_z};
+    const double along = v[0] * r_z - v[1] * r_x;
+    v[1] = v[0] * r_x + v[1] * r_z, v[0] = along;
+    return v;
   }
   /// Parameters along a half branch at which it goes from ring to ring, with its ends.
-  std::vector<double> cuts_of(const HalfBranch<2>& branch) const;
+  std::vector<double> cuts_of(double x, double z, double toward_x, double toward_z) const;
 
   const LayerGrid& grid_;
 };
@@ -181,8 +184,8 @@ void LayerBinning::each_share(const HalfBranch<D>& branch, Action action) const 
   }
 }
 
-template <class Action>
-void RingBinning::each_part(const GrainSample<2>& grain, Action action) const {
+template <int D, class Action>
+void RingBinning::each_part(const GrainSample<D>& grain, Action action) const {
   const double r = std::hypot(grain.at[0], grain.at[1]), radius = grain.radius, thickness = grid_.thickness;
   const double first = std::max(0.0, std::floor((r - radius) / thickness));
   const double end = std::min(static_cast<double>(grid_.layers()), std::ceil((r + radius) / thickness));
@@ -194,20 +197,19 @@ void RingBinning::each_part(const GrainSample<2>& grain, Action action) const {
   }
 }
 
-template <class Action>
-void RingBinning::each_share(const HalfBranch<2>& branch, Action action) const {
+template <int D, class Action>
+void RingBinning::each_share(const HalfBranch<D>& branch, Action action) const {
   constexpr double gauss_offset = 0.28867513459481288;  // sqrt(3)/6 from the middle of a piece of length 1
-  const std::vector<double> cuts = cuts_of(branch);
+  const std::vector<double> cuts = cuts_of(branch.at[0], branch.at[1], branch.toward[0], branch.toward[1]);
   for (std::size_t piece = 0; piece + 1 < cuts.size(); ++piece) {
     const double middle = (cuts[piece] + cuts[piece + 1]) / 2, length = cuts[piece + 1] - cuts[piece];
-    const Vector<2> at = branch.point(middle);
+    const Vector<D> at = branch.point(middle);
     const double ring = std::floor(std::hypot(at[0], at[1]) / grid_.thickness);
     if (!(ring < static_cast<double>(grid_.layers()))) continue;
     for (const double offset : {-gauss_offset, gauss_offset}) {
-      HalfBranch<2> seen = branch;
+      HalfBranch<D> seen = branch;
       seen.at = branch.point(middle + offset * length);
-      seen.toward = polar(seen.at, branch.toward);
-      seen.force = polar(seen.at, branch.force);
+      for (Vector<D>* v : {&seen.toward, &seen.force, &seen.normal}) *v = polar<D>(seen.at, *v);
       action(static_cast<std::size_t>(ring), length / 2, seen);
     }
   }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "coupling/core/results/layer_ratios.hpp"
+#include "particles/measurement/layers/layer_motion.hpp"
 
 namespace drumlin::particles {
 namespace {
@@ -114,33 +115,13 @@ double area_of(const LayerGrid& grid, const LayerSums& sums, std::size_t layer) 
 
 double mean(double sum, double count) { return count > 0 ? sum / count : Of::none; }
 
-/// Slope of v_x: (v[l + 1] - v[l - 1]) / (2 thickness), NaN beside an empty layer and at the ends of an open
-/// grid. Beyond those of a cell follow images, which move with it. In rings that of v_t/r, times r.
-void set_shear(const LayerGrid& grid, const LayerSums& sums, std::vector<LayerValues>& layers) {
-  const std::size_t count = layers.size();
-  const double jump = sums.snapshots.cell_jump / sums.snapshots.count;
-  for (std::size_t l = 0; l < count; ++l) {
-    const bool lowest = l == 0, highest = l + 1 == count;
-    if (count < 2 || (!grid.closed && (lowest || highest))) continue;
-    const double above = highest ? layers.front().v_x + jump : layers[l + 1].v_x;
-    const double below = lowest ? layers.back().v_x - jump : layers[l - 1].v_x;
-    layers[l].shear_rate = (grid.rings ? layers[l].z : 1) * (above - below) / (2 * grid.thickness);
-  }
-}
-
 /// Components of the spreads of a layer.
-enum { of_v_x, of_v_z, of_x, of_zeta };
+enum { of_v_x, of_v_z, of_x };
 
 /// Slope of v_z over x within a layer: the other half of the vorticity.
 double normal_velocity_slope(const Spread<4>& each) {
   const double spread = each.covariance(of_x, of_x);
   return each.weight > 2 && spread > 0 ? each.covariance(of_x, of_v_z) / spread : Of::none;
-}
-
-/// Mean angular velocity about the centre of rings, clockwise: sum of v_t r / sum of r^2.
-double angular_velocity(const Spread<4>& each, double r) {
-  const double inertia = each.product(of_zeta, of_zeta) + 2 * r * each.first[of_zeta] + each.weight * r * r;
-  return inertia > 0 ? (each.product(of_v_x, of_zeta) + r * each.first[of_v_x]) / inertia : Of::none;
 }
 
 /// The gradient of a mean profile v_x(z) within a layer: otherwise shear would pass for fluctuation. A slope
@@ -204,14 +185,9 @@ void set_means(const LayerGrid& grid, const LayerSum& sum, double area, LayerVal
 
 /// Returns the slope of v_x within the layer. In rings v_x has been the angular velocity until now.
 double set_vorticity(const LayerGrid& grid, const LayerSum& sum, LayerValues& f) {
-  if (!grid.rings) {
-    f.half_vorticity = (f.shear_rate - normal_velocity_slope(sum.each)) / 2;
-    return f.shear_rate;
-  }
-  const double angular = f.v_x;
-  f.half_vorticity = angular + f.shear_rate / 2;
-  f.v_x = angular * f.z;
-  return angular + (std::isfinite(f.shear_rate) ? f.shear_rate : 0);
+  f.half_vorticity =
+      grid.rings ? f.v_x + f.shear_rate / 2 : (f.shear_rate - normal_velocity_slope(sum.each)) / 2;
+  return slope_within(grid, f);
 }
 
 bool knows(const Profile& profile, const LayerQuantity& quantity) {
@@ -247,7 +223,7 @@ Profile profile_of(const LayerGrid& grid, const LayerSums& sums, double surface_
     layers[l].z = grid.z_of(first + l) - surface_z;
     set_means(grid, sum, area_of(grid, sums, first + l), layers[l]);
   }
-  set_shear(grid, sums, layers);
+  set_shear(grid, sums.snapshots.cell_jump / sums.snapshots.count, layers);
   for (std::size_t l = 0; l < layers.size(); ++l) {
     const LayerSum& sum = sums.layers[first + l];
     const double slope = set_vorticity(grid, sum, layers[l]);

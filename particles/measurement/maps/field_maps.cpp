@@ -30,7 +30,7 @@ class RowMaker {
     const std::size_t across = NodeTiles<MapNode>::tiles_along(columns);
     for (std::size_t t = 0; t < across; ++t) {
       batches_.read(tile_row * across + t, tile_);
-      if (snapshots_.whole.spheres > 0) batches_.read(tile_row * across + t, across_);
+      if (snapshots_.whole.spheres > 0) batches_.read(tile_row * across + t, space_);
       const std::size_t end = std::min(edge, columns - t * edge);
       for (std::size_t row = 0; row < rows_.rows; ++row)
         for (std::size_t column = 0; column < end; ++column)
@@ -81,11 +81,11 @@ class RowMaker {
         sums, snapshots_);
     if (snapshots_.whole.spheres > 0)
       values.seen = each_of(
-          [&](MapValues seen, const AcrossNode& node, const MapSums::Snapshots& all) {
-            set_across(node, all, inside, seen);
+          [&](MapValues seen, const SpaceNode& node, const MapSums::Snapshots& all) {
+            set_space(node, all, inside, seen);
             return seen;
           },
-          values.seen, node_of(across_, place), snapshots_);
+          values.seen, node_of(space_, place), snapshots_);
     const MapValues& whole = values.seen.whole;
     if (!std::isfinite(whole.v_x)) return values;
     const PlaneMatrix pressure{whole.sigma_xx, -whole.sigma_xz, -whole.sigma_zx, whole.sigma_zz};
@@ -138,7 +138,7 @@ class RowMaker {
   LeaveOneOut<MapSums::Snapshots> snapshots_;
   std::vector<MapQuantity> fields_;
   std::vector<std::vector<MapNode>> tile_;
-  std::vector<std::vector<AcrossNode>> across_;
+  std::vector<std::vector<SpaceNode>> space_;
   MapRows rows_;
 };
 

@@ -52,6 +52,17 @@ constexpr Row quantities[] = {{"nu", &MapValues::nu},
                               {"sigma_xy", &MapValues::sigma_xy, &Known::spheres},
                               {"sigma_yz", &MapValues::sigma_yz, &Known::spheres},
                               {"sigma_yy_kinetic", &MapValues::sigma_yy_kinetic, &Known::spheres},
+                              {"sigma_xy_kinetic", &MapValues::sigma_xy_kinetic, &Known::spheres},
+                              {"sigma_yz_kinetic", &MapValues::sigma_yz_kinetic, &Known::spheres},
+                              {"fabric_yy", &MapValues::fabric_yy, &Known::spheres},
+                              {"fabric_xy", &MapValues::fabric_xy, &Known::spheres},
+                              {"fabric_yz", &MapValues::fabric_yz, &Known::spheres},
+                              {"temperature", &MapValues::temperature, &Known::spheres},
+                              {"p_space", &MapValues::p_space, &Known::spheres},
+                              {"I_invariant", &MapValues::I_invariant, &Known::spheres},
+                              {"mu_invariant", &MapValues::mu_invariant, &Known::spheres},
+                              {"N1_over_p", &MapValues::N1_over_p, &Known::spheres},
+                              {"N2_over_p", &MapValues::N2_over_p, &Known::spheres},
                               {"wall_x", &MapValues::wall_x},
                               {"wall_z", &MapValues::wall_z},
                               {"residual_x", &MapValues::residual_x},
@@ -132,12 +143,11 @@ void set_balance(const MapNode& m, double gravity_x, double gravity_z, MapValues
 }
 
 /// What follows from contacts that nobody knows is not computed.
-void forget_contacts(MapNode& m) {
-  constexpr double none = MapValues::none;
-  m.contacts = none;
-  m.force = m.contact_force = m.wall_force = {none, none};
-  m.force_branch = {{{none, none}, {none, none}}};
-  m.fabric.fill(none);
+template <int D>
+void forget_contacts(Moments<D>& m) {
+  m.contacts = no_value;
+  for (Vector<D>& row : m.force_branch) row.fill(no_value);
+  m.fabric.fill(no_value);
 }
 
 }  // namespace
@@ -160,7 +170,10 @@ MapValues values_at(const MapNode& sums, const MapSums::Snapshots& snapshots, do
   MapValues f;
   MapNode m;
   add_times(share, sums, m);
-  if (snapshots.contacts < snapshots.count) forget_contacts(m);
+  if (snapshots.contacts < snapshots.count) {
+    forget_contacts<2>(m);
+    m.force = m.contact_force = m.wall_force = {no_value, no_value};
+  }
   f.number_density = m.grains;
   f.nu = m.solid / inside;
   if (f.nu < least_map_nu) return f;
@@ -171,21 +184,25 @@ MapValues values_at(const MapNode& sums, const MapSums::Snapshots& snapshots, do
   return f;
 }
 
-void set_across(const AcrossNode& sums, const MapSums::Snapshots& snapshots, double inside,
-                MapValues& values) {
-  if (!std::isfinite(values.v_x)) return;  // too few grains
-  const double per = 1 / (snapshots.count * inside);
-  const double density = per * sums.motion.weight;
-  const bool known = snapshots.contacts == snapshots.count;
-  const auto stress = [&](double contact, std::size_t a, std::size_t b) {
-    return known ? per * contact + density * sums.motion.covariance(a, b) : MapValues::none;
-  };
-  values.v_y = sums.motion.mean(2);
-  values.sigma_yy = stress(sums.yy, 2, 2);
-  values.sigma_xy = stress(sums.xy, 0, 2);
+void set_space(const SpaceNode& sums, const MapSums::Snapshots& snapshots, double inside, MapValues& f) {
+  if (!std::isfinite(f.v_x)) return;  // too few grains
+  SpaceNode m;
+  add_times(1 / snapshots.count, sums, m);
+  if (snapshots.contacts < snapshots.count) forget_contacts<3>(m);
+  const Fields<3> fields = derive(m, Background<3>{inside});
+  const Tensor<3> sigma = fields.pressure();
+  enum { X, Z, Y };
+  f.v_y = m.across.mean(1);
+  f.sigma_yy = sigma[Y][Y], f.sigma_yy_kinetic = fields.kinetic[Y][Y];
+  f.sigma_xy = sigma[X][Y], f.sigma_xy_kinetic = fields.kinetic[X][Y];
   // As sigma_xz, the traction of the upper side on the lower one.
-  values.sigma_yz = -stress(sums.yz, 1, 2);
-  values.sigma_yy_kinetic = density * sums.motion.covariance(2, 2);
+  f.sigma_yz = -sigma[Y][Z], f.sigma_yz_kinetic = -fields.kinetic[Y][Z];
+  f.fabric_xx = fields.fabric[X][X], f.fabric_zz = fields.fabric[Z][Z], f.fabric_yy = fields.fabric[Y][Y];
+  f.fabric_xz = fields.fabric[X][Z], f.fabric_xy = fields.fabric[X][Y], f.fabric_yz = fields.fabric[Y][Z];
+  // |D|^2 has D_xy^2 + D_yz^2 beside the plane's part.
+  const double strain_rate =
+      std::hypot(f.strain_rate, m.across.slope(1, m.across.slope_x), m.across.slope(1, m.across.slope_z));
+  static_cast<SpaceInvariants&>(f) = space_invariants(fields, strain_rate);
 }
 
 MapValues displaced_values(const MapNode& sums, const PlaneMatrix& pressure) {

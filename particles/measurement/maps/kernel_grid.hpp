@@ -22,27 +22,28 @@ class KernelGrid {
         cell_(cell) {}
 
   /// A grain and its images, which a moving cell makes faster.
-  template <class Action>
-  void each_centre(const GrainSample<2>& grain, Action action) const {
-    each_image(grain.at, 0, [&](const Vector<2>& at) {
-      GrainSample<2> seen = grain;
-      seen.at = at;
+  template <int D, class Action>
+  void each_centre(const GrainSample<D>& grain, Action action) const {
+    each_image({grain.at[0], grain.at[1]}, 0, [&](const Vector<2>& at) {
+      GrainSample<D> seen = grain;
+      seen.at[0] = at[0], seen.at[1] = at[1];
       const Point faster = cell_.image_velocity({at[0] - grain.at[0], at[1] - grain.at[1]});
-      for (Vector<2>* v : {&seen.velocity, &seen.laboratory_velocity})
+      for (Vector<D>* v : {&seen.velocity, &seen.laboratory_velocity})
         (*v)[0] += faster.x, (*v)[1] += faster.z;
       each_node(at, [&](MapPlace node, const KernelWeight& weight) { action(node, weight, seen); });
     });
   }
   /// The integral of the kernel along a half branch by two Gauss points in each of its pieces. Pieces up to
   /// 0.6 widths long keep its error below 1e-3 of the kernel's greatest value (test MapSums).
-  template <class Action>
-  void each_share(const HalfBranch<2>& branch, Action action) const;
+  template <int D, class Action>
+  void each_share(const HalfBranch<D>& branch, Action action) const;
   /// The contact's place; its normal has the length 1 there.
-  template <class Action>
-  void each_end(HalfBranch<2> branch, Action action) const {
-    const double length = branch.radius > 0 ? branch.radius : std::hypot(branch.toward[0], branch.toward[1]);
-    branch.normal = {branch.toward[0] / length, branch.toward[1] / length};
-    each_image(branch.point(1), 0, [&](const Vector<2>& at) {
+  template <int D, class Action>
+  void each_end(HalfBranch<D> branch, Action action) const {
+    const double reach = branch.radius > 0 ? branch.radius : length<D>(branch.toward);
+    for (int a = 0; a < D; ++a) branch.normal[a] = branch.toward[a] / reach;
+    const Vector<D> contact = branch.point(1);
+    each_image({contact[0], contact[1]}, 0, [&](const Vector<2>& at) {
       each_node(at, [&](MapPlace node, const KernelWeight& weight) { action(node, weight.phi, branch); });
     });
   }
@@ -72,16 +73,16 @@ class KernelGrid {
   Period cell_;
 };
 
-template <class Action>
-void KernelGrid::each_share(const HalfBranch<2>& branch, Action action) const {
+template <int D, class Action>
+void KernelGrid::each_share(const HalfBranch<D>& branch, Action action) const {
   const double length = std::hypot(branch.toward[0], branch.toward[1]);
   const double pieces = std::max(1.0, std::ceil(length / (longest_piece * graining_.width)));
   const double share = 1 / (2 * pieces);
   for (double piece = 0; piece < pieces; ++piece) {
-    const Vector<2> middle = branch.point((piece + 0.5) / pieces);
+    const Vector<D> middle = branch.point((piece + 0.5) / pieces);
     const double off_x = gauss_offset / pieces * branch.toward[0],
                  off_z = gauss_offset / pieces * branch.toward[1];
-    each_image(middle, longest_piece / 2 * graining_.width, [&](const Vector<2>& at) {
+    each_image({middle[0], middle[1]}, longest_piece / 2 * graining_.width, [&](const Vector<2>& at) {
       nodes_.each_node_of_two(at[0] - off_x, at[1] - off_z, at[0] + off_x, at[1] + off_z,
                               [&](MapPlace node, double phi) { action(node, share * phi, branch); });
     });

@@ -51,20 +51,20 @@ void MapBatches::put_away(const MapSums& sums) {
   snapshots_.push_back(sums.snapshots);
   rows_reached_ = std::max(rows_reached_, rows_with_grains(graining_, sums.nodes));
   places_.push_back(put_tiles(sums.nodes, *file_));
-  across_.push_back(put_tiles(sums.across, *file_));
+  space_.push_back(put_tiles(sums.space, *file_));
 }
 
 void MapBatches::read(std::size_t tile, std::vector<std::vector<MapNode>>& batches) const {
   read_tile(tile, places_, *file_, batches);
 }
 
-void MapBatches::read(std::size_t tile, std::vector<std::vector<AcrossNode>>& batches) const {
-  read_tile(tile, across_, *file_, batches);
+void MapBatches::read(std::size_t tile, std::vector<std::vector<SpaceNode>>& batches) const {
+  read_tile(tile, space_, *file_, batches);
 }
 
 std::size_t MapBatches::bytes_in_memory() const {
   std::size_t bytes = 0;
-  for (const auto* of : {&places_, &across_})
+  for (const auto* of : {&places_, &space_})
     for (const auto& places : *of) bytes += places.capacity() * sizeof(std::uint64_t);
   return bytes;
 }

@@ -25,14 +25,14 @@ class MapBatches {
   std::size_t rows_reached() const { return rows_reached_; }
   /// The nodes of one tile, batch by batch; none where a batch has nothing but zeros.
   void read(std::size_t tile, std::vector<std::vector<MapNode>>& batches) const;
-  void read(std::size_t tile, std::vector<std::vector<AcrossNode>>& batches) const;
+  void read(std::size_t tile, std::vector<std::vector<SpaceNode>>& batches) const;
   std::size_t bytes_in_memory() const;
 
  private:
   CoarseGraining graining_;
   std::shared_ptr<ScratchFile> file_;
-  std::vector<MapSums::Snapshots> snapshots_;                // of each batch, as what follows
-  std::vector<std::vector<std::uint64_t>> places_, across_;  // of its tiles in the file
+  std::vector<MapSums::Snapshots> snapshots_;               // of each batch, as what follows
+  std::vector<std::vector<std::uint64_t>> places_, space_;  // of its tiles in the file
   std::size_t rows_reached_ = 1;
 };
 

@@ -47,7 +47,7 @@ void put_away(MapReading& reading) {
 }  // namespace
 
 std::size_t MapReading::bytes_in_memory() const {
-  return sums.nodes.bytes() + sums.across.bytes() + batches->bytes_in_memory();
+  return sums.nodes.bytes() + sums.space.bytes() + batches->bytes_in_memory();
 }
 
 MapReading begun_maps(const MeasurementFrame& place, double spacing, double width,

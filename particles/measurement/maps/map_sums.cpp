@@ -5,47 +5,14 @@
 
 #include "particles/bodies/cell_path.hpp"
 #include "particles/measurement/frame/accumulate.hpp"
-#include "particles/measurement/frame/sphere_branches.hpp"
+#include "particles/measurement/frame/spheres_in_frame.hpp"
 
 namespace drumlin::particles {
-namespace {
-
-void add_across(const CoarseGraining& graining, const Snapshot& snapshot, const FlowSnapshot& in_frame,
-                const KernelGrid& binning, NodeTiles<AcrossNode>& across) {
-  if (across.size() == 0) across = NodeTiles<AcrossNode>(graining.grid);
-  const SphereSlab& slab = *snapshot.spheres;
-  for (std::size_t i = 0; i < in_frame.x.size(); ++i) {
-    if (!in_frame.shows(i)) continue;
-    const auto [v_x, v_z] = graining.frame.turned(snapshot.v_x[i], snapshot.v_z[i]);
-    binning.each_centre(
-        in_frame.grain(i),
-        [&, v_x = v_x, v_z = v_z](MapPlace node, const KernelWeight& weight, const GrainSample<2>& grain) {
-          across[node].motion.add(weight.phi * grain.mass(), {v_x, v_z, slab.v_y[i]});
-        });
-  }
-  each_sphere_branch(graining.frame, snapshot, in_frame, [&](const HalfBranch<3>& half) {
-    HalfBranch<2> seen;  // all that the share of a kernel asks for
-    seen.at = {half.at[0], half.at[1]}, seen.toward = {half.toward[0], half.toward[1]};
-    binning.each_share(seen, [&](MapPlace place, double share, const HalfBranch<2>&) {
-      AcrossNode& node = across[place];
-      const double per = share / slab.depth;
-      node.yy -= per * half.force[2] * half.toward[2];
-      node.xy -= per * half.force[0] * half.toward[2];
-      node.yz -= per * half.force[2] * half.toward[1];
-    });
-  });
-}
-
-}  // namespace
-
 void MapNode::add_centre(const KernelWeight& at, const GrainSample<2>& grain) {
   const auto [phi, phi_x, phi_z] = at;
   const auto [u_x, u_z] = grain.laboratory_velocity;
-  const double area = grain.area(), mass = grain.density * area;
-  const double m_x = mass * u_x, m_z = mass * u_z;
-  Moments::add_centre(phi, grain);
-  solid += phi * area;
-  motion.add(phi * mass, grain.laboratory_velocity);
+  const double mass = grain.mass(), m_x = mass * u_x, m_z = mass * u_z;
+  NodeMoments::add_centre(phi, grain);
   carried.add(at, {mass, mass * grain.velocity[0], mass * grain.velocity[1], m_x, m_z});
   for (int a = 0; a < 2; ++a) force[a] += phi * grain.force[a];
   flux_divergence[0] += phi_x * (m_x * u_x) + phi_z * (m_x * u_z);
@@ -91,7 +58,10 @@ void add_snapshot(const CoarseGraining& graining, const Snapshot& snapshot, cons
     grain.force = force[i];
     add_grain(grain, binning, sums.nodes);
   }
-  if (snapshot.spheres) add_across(graining, snapshot, in_frame, binning, sums.across);
+  if (snapshot.spheres) {
+    if (sums.space.size() == 0) sums.space = NodeTiles<SpaceNode>(graining.grid);
+    accumulate_spheres(frame, snapshot, in_frame, binning, sums.space);
+  }
   MapSums::Snapshots& known = sums.snapshots;
   known.add(in_frame);
   const auto [gravity_x, gravity_z] = frame.turned(snapshot.gravity_x, snapshot.gravity_z);

@@ -10,9 +10,22 @@
 
 namespace drumlin::particles {
 
+/// Moments at one node, phi the kernel around it.
+template <int D>
+struct NodeMoments : Moments<D> {
+  void add_centre(double phi, const GrainSample<D>& grain) {
+    const double area = grain.area();
+    Moments<D>::add_centre(phi, grain);
+    this->solid += phi * area;
+    this->motion.add(phi * (grain.density * area), grain.laboratory_velocity);
+  }
+  /// The fabric takes half of each side, so that a contact with a wall counts half.
+  void add_end(double phi, const HalfBranch<D>& branch) { this->add_fabric(phi / 2, branch.normal); }
+};
+
 /// Sums at one node; phi is the kernel around it, m the mass. v: velocity relative to the drum over the
 /// stored window; u, that of `motion`: instantaneous, in the laboratory. Components in the flow frame.
-struct MapNode : Moments<2> {
+struct MapNode : NodeMoments<2> {
   /// At the grains' centres m, m v_x, m v_z, m u_x, m u_z.
   KernelSums<5> carried;
   /// sum of phi at the grains' centres times the force of all contacts on the grain.
@@ -27,9 +40,8 @@ struct MapNode : Moments<2> {
   KernelSums<3> displaced;
 
   void add_centre(const KernelWeight& at, const GrainSample<2>& grain);
-  /// The fabric takes half of each side, so that a contact with a wall counts half.
   void add_end(double phi, const HalfBranch<2>& branch) {
-    add_fabric(phi / 2, branch.normal);
+    NodeMoments::add_end(phi, branch);
     for (int a = 0; a < 2; ++a) {
       contact_force[a] += phi * branch.force[a];
       if (branch.at_wall) wall_force[a] += phi * branch.force[a];
@@ -37,16 +49,20 @@ struct MapNode : Moments<2> {
   }
 };
 
-/// What a node of spheres knows besides: components along y, across the plane, per depth as all else.
-struct AcrossNode {
-  Spread<3> motion;               ///< velocities x, z, y of this instant, by the mass
-  double yy = 0, xy = 0, yz = 0;  ///< F_a b_b of contacts, as MapNode has them
+/// What a node of spheres has besides: the moments in space, per depth as all else.
+struct SpaceNode : NodeMoments<3> {
+  KernelSums<2> across;  ///< at the centres m, m v_y
+
+  void add_centre(const KernelWeight& at, const GrainSample<3>& grain) {
+    NodeMoments::add_centre(at.phi, grain);
+    across.add(at, {grain.mass(), grain.mass() * grain.velocity[2]});
+  }
 };
 
 /// Sums over some snapshots.
 struct MapSums {
   NodeTiles<MapNode> nodes;
-  NodeTiles<AcrossNode> across;  ///< of discs without tiles
+  NodeTiles<SpaceNode> space;  ///< of discs without tiles
   /// Gravity in the flow frame; pairs of snapshots that displacements were taken from, and the time between
   /// them.
   struct Snapshots : KnownSnapshots {

@@ -5,45 +5,42 @@
 #include <string>
 #include <utility>
 
-#include "coupling/core/basics/inertial_number.hpp"
-#include "particles/measurement/frame/accumulate.hpp"
 #include "particles/measurement/frame/intervals.hpp"
-#include "particles/measurement/frame/sphere_branches.hpp"
+#include "particles/measurement/frame/space_invariants.hpp"
+#include "particles/measurement/frame/spheres_in_frame.hpp"
+#include "particles/measurement/layers/layer_motion.hpp"
 
 namespace drumlin::particles {
 namespace {
 
 enum { X, Z, Y };
 
-/// Pairs of components in the order of the columns; of stresses a is the force's, b the branch's.
+/// Names of what has one component, or two; of stresses a is the force's, b the branch's.
+struct Component {
+  const char* name;
+  int a;
+};
 struct Pair {
   const char* name;
   int a, b;
 };
-constexpr Pair pairs[] = {{"xx", X, X}, {"yy", Y, Y}, {"zz", Z, Z}, {"xz", X, Z}, {"xy", X, Y}, {"yz", Y, Z}};
+struct Names {
+  std::array<Component, 3> velocities;
+  std::array<Pair, 6> pairs;
+};
+constexpr Names of_layers{
+    {{{"v_x", X}, {"v_y", Y}, {"v_z", Z}}},
+    {{{"xx", X, X}, {"yy", Y, Y}, {"zz", Z, Z}, {"xz", X, Z}, {"xy", X, Y}, {"yz", Y, Z}}}};
+constexpr Names of_rings{
+    {{{"v_t", X}, {"v_y", Y}, {"v_r", Z}}},
+    {{{"tt", X, X}, {"yy", Y, Y}, {"rr", Z, Z}, {"rt", X, Z}, {"ty", X, Y}, {"ry", Y, Z}}}};
 
 /// What is known of one layer.
-struct SpaceValues {
-  double z = no_value, count = 0, shear_rate = no_value, temperature = no_value, omega = no_value;
-  std::array<double, 3> velocity{no_value, no_value, no_value};
+struct SpaceValues : SpaceInvariants {
+  double z = no_value, count = 0, v_x = no_value, v_z = no_value, v_y = no_value, shear_rate = no_value;
   Fields<3> fields;
-  bool with_contacts = false;
 
-  Tensor<3> stress() const { return fields.pressure(); }
-  double p() const { return trace<3>(stress()) / 3; }
-  double over_p(int a, int b) const { return (stress()[a][a] - stress()[b][b]) / p(); }
-  /// |s|/p, s the deviator of the symmetric part and |s| the root of s:s/2.
-  double mu_invariant() const {
-    const Tensor<3> sigma = stress();
-    double square = 0;
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) {
-        const double s = (sigma[a][b] + sigma[b][a]) / 2 - (a == b ? p() : 0);
-        square += s * s / 2;
-      }
-    return std::sqrt(square) / p();
-  }
-  double I_invariant() const { return p() > 0 ? inertial_number(shear_rate, p()) : no_value; }
+  std::array<double, 3> velocity() const { return {v_x, v_z, v_y}; }
 };
 
 using SpaceProfile = std::vector<SpaceValues>;
@@ -52,20 +49,22 @@ SpaceProfile profile_of(const LayerGrid& grid, const SpaceSums& sums, double sur
   SpaceProfile profile(sums.layers.size());
   for (std::size_t l = 0; l < profile.size(); ++l) {
     const SpaceSum& sum = sums.layers[l];
-    profile[l].z = grid.z_of(l) - surface_z;
-    profile[l].count = sum.grains;
-    profile[l].with_contacts = sums.with_contacts == sums.snapshots;
-    for (int a = 0; a < 3; ++a) profile[l].velocity[a] = sum.motion.mean(a);
+    SpaceValues& f = profile[l];
+    f.z = grid.z_of(l) - surface_z;
+    f.count = sum.grains;
+    f.v_x = grid.rings ? angular_velocity(sum.motion, f.z) : sum.motion.mean(X);
+    f.v_z = sum.motion.mean(Z), f.v_y = sum.motion.mean(Y);
   }
-  for (std::size_t l = 1; l + 1 < profile.size(); ++l)
-    profile[l].shear_rate = (profile[l + 1].velocity[X] - profile[l - 1].velocity[X]) / (2 * grid.thickness);
+  set_shear(grid, 0, profile);
   for (std::size_t l = 0; l < profile.size(); ++l) {
     const SpaceSum& sum = sums.layers[l];
-    Background<3> background{sums.volume, {}, sum.solid / sums.volume};
-    if (std::isfinite(profile[l].shear_rate)) background.gradient[X][Z] = profile[l].shear_rate;
-    profile[l].fields = derive(sum, background);
-    if (sum.grains > 1)
-      profile[l].temperature = trace<3>(profile[l].fields.kinetic) / (3 * profile[l].fields.nu);
+    SpaceValues& f = profile[l];
+    const double area = grid.area[l] * sums.snapshots.count, slope = slope_within(grid, f);
+    Background<3> background{area, {}, sum.solid / area};
+    if (std::isfinite(slope)) background.gradient[X][Z] = slope;
+    f.fields = derive(sum, background);
+    static_cast<SpaceInvariants&>(f) = space_invariants(f.fields, f.shear_rate);
+    if (!(sum.grains > 1)) f.temperature = no_value;
   }
   return profile;
 }
@@ -73,14 +72,14 @@ SpaceProfile profile_of(const LayerGrid& grid, const SpaceSums& sums, double sur
 /// Columns by their names, and how each is read off a layer; xz is turned to the traction of what is above on
 /// what is below, as in the view.
 template <class Add>
-void each_column(const Add& add, bool with_contacts) {
+void each_column(const Names& names, const Add& add, bool with_contacts) {
   add("nu", [](const SpaceValues& v) { return v.fields.nu; });
-  for (const auto& [name, a] : {std::pair("v_x", X), {"v_y", Y}, {"v_z", Z}})
-    add(name, [a = a](const SpaceValues& v) { return v.velocity[a]; });
+  for (const auto& [name, a] : names.velocities)
+    add(name, [a = a](const SpaceValues& v) { return v.velocity()[a]; });
   add("shear_rate", [](const SpaceValues& v) { return v.shear_rate; });
   add("temperature", [](const SpaceValues& v) { return v.temperature; });
   const auto tensor = [&](const std::string& before, const std::string& behind, auto of, bool turned) {
-    for (const Pair& pair : pairs) {
+    for (const Pair& pair : names.pairs) {
       const double sign = turned && pair.a != pair.b && (pair.a == Z || pair.b == Z) ? -1 : 1;
       add(before + pair.name + behind, [=](const SpaceValues& v) {
         const Tensor<3> t = of(v);
@@ -93,15 +92,15 @@ void each_column(const Add& add, bool with_contacts) {
   add("count", [](const SpaceValues& v) { return v.count; });
   if (!with_contacts) return;
   tensor(
-      "sigma_", "", [](const SpaceValues& v) { return v.stress(); }, true);
+      "sigma_", "", [](const SpaceValues& v) { return v.fields.pressure(); }, true);
   tensor(
       "fabric_", "", [](const SpaceValues& v) { return v.fields.fabric; }, false);
   add("coordination", [](const SpaceValues& v) { return v.fields.coordination; });
-  add("p_space", [](const SpaceValues& v) { return v.p(); });
-  add("I_invariant", [](const SpaceValues& v) { return v.I_invariant(); });
-  add("mu_invariant", [](const SpaceValues& v) { return v.mu_invariant(); });
-  add("N1_over_p", [](const SpaceValues& v) { return v.over_p(X, Z); });
-  add("N2_over_p", [](const SpaceValues& v) { return v.over_p(Z, Y); });
+  add("p_space", [](const SpaceValues& v) { return v.p_space; });
+  add("I_invariant", [](const SpaceValues& v) { return v.I_invariant; });
+  add("mu_invariant", [](const SpaceValues& v) { return v.mu_invariant; });
+  add("N1_over_p", [](const SpaceValues& v) { return v.N1_over_p; });
+  add("N2_over_p", [](const SpaceValues& v) { return v.N2_over_p; });
 }
 
 std::span<const SpaceSum> non_empty(const SpaceSums& sums) {
@@ -125,35 +124,21 @@ void SpaceSum::add_share(double share, const HalfBranch<3>& branch) {
 
 void add_times(double factor, const SpaceSums& from, SpaceSums& to) {
   for (std::size_t l = 0; l < to.layers.size(); ++l) add_times(factor, from.layers[l], to.layers[l]);
-  to.volume += factor * from.volume;
-  to.snapshots += factor * from.snapshots;
-  to.with_contacts += factor * from.with_contacts;
+  add_times(factor, from.snapshots, to.snapshots);
 }
 
 SpaceLayers empty_space_layers(LayerGrid grid, std::size_t batches) {
-  const SpaceSums empty{std::vector<SpaceSum>(grid.layers())};
+  const SpaceSums empty{std::vector<SpaceSum>(grid.layers()), {}};
   return {std::move(grid), std::vector<SpaceSums>(batches, empty)};
 }
 
 void add_snapshot(const LayerGrid& grid, const Snapshot& snapshot, const FlowSnapshot& in_frame,
                   SpaceSums& sums) {
-  const SphereSlab& slab = *snapshot.spheres;
-  LayerBinning binning(grid);
-  for (std::size_t i = 0; i < in_frame.x.size(); ++i)
-    if (in_frame.shows(i))
-      add_grain(GrainSample<3>{i,
-                               {in_frame.x[i], in_frame.z[i], slab.y[i]},
-                               {in_frame.v_x[i], in_frame.v_z[i], slab.v_y[i]},
-                               in_frame.radius[i],
-                               1,
-                               static_cast<double>(in_frame.coordination[i]),
-                               in_frame.spin.empty() ? 0 : in_frame.spin[i]},
-                binning, sums.layers);
-  each_sphere_branch(grid.frame, snapshot, in_frame,
-                     [&](const HalfBranch<3>& half) { add_branch(half, binning, sums.layers); });
-  sums.volume += grid.area.empty() ? 0 : grid.area.front() * slab.depth;
-  sums.snapshots += 1;
-  sums.with_contacts += snapshot.contacts_known ? 1 : 0;
+  sums.snapshots.add(in_frame);
+  if (grid.rings)
+    accumulate_spheres(grid.frame, snapshot, in_frame, RingBinning(grid), sums.layers);
+  else
+    accumulate_spheres(grid.frame, snapshot, in_frame, LayerBinning(grid), sums.layers);
 }
 
 ProfileSet space_profiles(const SpaceLayers& layers, double surface_z) {
@@ -164,6 +149,7 @@ ProfileSet space_profiles(const SpaceLayers& layers, double surface_z) {
   ProfileSet table;
   for (std::size_t l = 0; l < count; ++l) table.z.push_back(profiles.whole[l].z);
   each_column(
+      layers.grid.rings ? of_rings : of_layers,
       [&](const std::string& name, const auto& value_of) {
         ProfileColumn& column = table.columns.emplace_back(ProfileColumn{name, {}, {}});
         for (std::size_t l = 0; l < count; ++l) {
@@ -173,7 +159,7 @@ ProfileSet space_profiles(const SpaceLayers& layers, double surface_z) {
                 ci99_of(profiles, [&](const SpaceProfile& one) { return value_of(one[l]); }));
         }
       },
-      sums.whole.with_contacts == sums.whole.snapshots);
+      sums.whole.snapshots.contacts == sums.whole.snapshots.count);
   return table;
 }
 
