@@ -17,13 +17,13 @@ AXES = {"radial": r"distance from the {center}, $r$  [$d$]", "height": r"height 
 VELOCITY, STRESS, RATE = r"velocity  [$\sqrt{gd}$]", r"stress  [$\rho_0 g d$]", r"rate  [$\sqrt{g/d}$]"
 
 SHARES = (r"$\nu$, $\rho/\rho_0$", False, ["nu", "density"])
-STRESSES = (STRESS, False, ["sigma_zz", "sigma_xx", "sigma_xz"])
+STRESSES = (STRESS, False, ["sigma_zz", "sigma_xx", "sigma_xz", "sigma_yy"])
 RATIOS = ("ratio of stresses", False, ["mu", "k"])
 
 # By frame: panels of (label of the values, logarithmic, columns); a column that a scene does not have is left out, and a panel without any.
 PANELS = {
     "radial": [(VELOCITY, False, ["v_t", "v_r"]), (r"$r\,|d(v_t/r)/dr|$  [$\sqrt{g/d}$]", True, ["shear_rate"]), (RATE, False, ["omega", "half_vorticity"]), SHARES,
-               (STRESS, False, ["sigma_rr", "sigma_tt", "sigma_rt"]), RATIOS],
+               (STRESS, False, ["sigma_rr", "sigma_tt", "sigma_rt", "sigma_yy"]), RATIOS],
     "height": [(VELOCITY, False, ["v_z", "v_x"]), SHARES, STRESSES, RATIOS],
     "width": [(VELOCITY, False, ["v_z", "v_x"]), (RATE, False, ["d_v_z_dx", "omega"]), SHARES, STRESSES],
 }

@@ -71,6 +71,31 @@ def require_no_layers_across_a_period(drumlin, folder):
         require(f"period_{height}: is above 0, along the height of the view (allowed: a box that is periodic across layers is not measured)" in error, error)
 
 
+def require_rings_and_height(drumlin, folder):
+    """A cube of spheres that turns about y as one, in an open box: rings and height have the components along y, maps of unknown contacts no stress."""
+    spin, along_y, half = 0.5, 0.25, 3
+    places = [(a + 0.5, b + 0.5, c + 0.5) for c in range(-half, half) for b in range(-half, half) for a in range(-half, half)]
+    with open(folder / "lattice" / "turning", "w", encoding="utf-8") as dump:
+        for time in range(4):
+            dump.write(f"ITEM: TIMESTEP\n{time}\nITEM: NUMBER OF ATOMS\n{len(places)}\nITEM: BOX BOUNDS ff ff ff\n" + f"{-half} {half}\n" * 3 + "ITEM: ATOMS id x y z vx vy vz radius\n")
+            dump.writelines(f"{number} {x} {y} {z} {spin * z} {along_y} {-spin * x} 0.5\n" for number, (x, y, z) in enumerate(places, 1))
+    opened = DESCRIPTION.split("[periodic_x]")[0].replace("lattice.data", "turning").replace('contacts = ["lattice.fstat"]', "step_s = 1.0")
+    (folder / "lattice" / "turning.toml").write_text(opened, encoding="utf-8")
+    drumlin("import", folder / "lattice" / "turning.toml", "-o", folder / "turning")
+    drumlin("measure", folder / "turning", "--radial", "0,0", "--height=-3,3", "--parts", "maps")
+    measured = folder / "turning" / "measured"
+    require((measured / "radial.png").exists() and (measured / "height.png").exists() and (measured / "maps.png").exists(), "figures")
+    rings = table(measured / "radial.csv")
+    for row in rings[1:half - 1]:
+        for name, expected in {"v_t": spin * row["r"], "v_y": along_y, "temperature": 0, "sigma_yy_kinetic": 0, "sigma_ry_kinetic": 0}.items():
+            close(row[name], expected, f"{name} at r = {row['r']}")
+    height = table(measured / "height.csv")
+    close(height[half]["v_y"], along_y, "v_y over the height")
+    require("fabric_yy" not in rings[0] and "p_space" not in height[0], f"{list(rings[0])} {list(height[0])} of unknown contacts")
+    with h5py.File(measured / "maps.h5") as maps:
+        require(not (maps["fields/fabric_yy"][:] == maps["fields/fabric_yy"][:]).any(), "a fabric of unknown contacts")
+
+
 def table(file):
     with open(file, newline="", encoding="utf-8") as stream:
         return [{name: float(value) if value else math.nan for name, value in row.items()}
@@ -106,6 +131,8 @@ def main():
             # The kernel sums over lattice planes 1 d apart, as wide as they are: it is uniform away from top and bottom.
             row = abs(maps["z"][:] - space[LEVELS // 2]["z"]).argmin()
             nu, zz, yy, xy, v_y = (maps[f"fields/{name}"][row] for name in ("nu", "sigma_zz", "sigma_yy", "sigma_xy", "v_y"))
+            for axes in ("xx", "yy", "zz"):
+                require(abs(maps[f"fields/fabric_{axes}"][row] - 1 / 3).max() < 1e-9, f"fabric_{axes}")
             require(abs(nu - math.pi / 6).max() < 1e-6 and abs(zz - 3).max() < 1e-2 and abs(yy - 2).max() < 1e-2, f"{nu} {zz} {yy}")
             require(abs(xy).max() < 1e-9 and abs(v_y).max() < 1e-9, f"{xy} {v_y}")
         # Through a slab of two rows.
@@ -116,6 +143,7 @@ def main():
             for name in ("nu", "sigma_zz", "sigma_yy", "shear_rate", "coordination"):
                 require(math.isnan(row[name]) == math.isnan(half[name]) and not abs(row[name] - half[name]) > 1e-9, f"{name} of a slab: {half[name]}, {row[name]}")
         require_no_layers_across_a_period(drumlin, folder)
+        require_rings_and_height(drumlin, folder)
         for words in (["--along", "z"], ["--slab", "3,1"], ["--slab", "0,9"], ["--parts", "voronoi"], ["--grains", "last"]):
             _, error = drumlin("measure", run, *words, "--overwrite", code=2)
         drumlin("plot", run, code=2)

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "coupling/core/documents/csv.hpp"
 #include "coupling/core/files/text_file.hpp"
 #include "particles/measurement/layers/slice.hpp"
+#include "particles/measurement/spheres/space_layers.hpp"
 
 namespace drumlin::apps {
 namespace {
@@ -30,6 +32,7 @@ struct OwnFrame {
   Json place;
   std::span<const particles::LayerQuantity> quantities;
   particles::Slice slice;
+  std::optional<particles::SpaceLayers> space = {};  ///< of spheres over radius or height
 };
 
 struct Frames {
@@ -101,9 +104,23 @@ void add(Snapshot snapshot, std::size_t batch, Frames& frames) {
   snapshot.wall_spin = 0;
   for (OwnFrame& one : frames.frames) {
     const particles::LayerGrid& grid = one.slice.grid;
-    add_snapshot(grid, in_flow_frame(snapshot, grid.frame, particles::VelocityKind::instantaneous),
-                 one.slice.batches[batch]);
+    const FlowSnapshot seen = in_flow_frame(snapshot, grid.frame, particles::VelocityKind::instantaneous);
+    add_snapshot(grid, seen, one.slice.batches[batch]);
+    if (!snapshot.spheres || one.name == "width") continue;
+    if (!one.space) one.space = particles::empty_space_layers(grid, one.slice.batches.size());
+    add_snapshot(grid, snapshot, seen, one.space->batches[batch]);
   }
+}
+
+/// Of spheres with the columns of space that the view lacks. No surface crosses infinity: z counts from the
+/// origin of the frame.
+ProfileSet table_of(const OwnFrame& one) {
+  ProfileSet table = table_of(slice_profiles(one.slice, INFINITY), one.quantities);
+  if (!one.space) return table;
+  ProfileSet space = particles::space_profiles(*one.space, 0);
+  for (ProfileColumn& column : space.columns)
+    if (!table.find(column.name)) table.columns.push_back(std::move(column));
+  return table;
 }
 
 /// As profiles.csv, but for the name of its first column and for a header that names the frame.
@@ -124,9 +141,7 @@ void write(const MeasureOptions& options, const PartOutput& output, const Frames
     header["batches"] = frames.batches;
     if (output.reduced) header["reduced"] = true;
     const std::string file = one.name + ".csv";
-    // No surface crosses infinity: z counts from the origin of the frame.
-    write_table(output.folder / file, one.coordinate, header,
-                table_of(slice_profiles(one.slice, INFINITY), one.quantities));
+    write_table(output.folder / file, one.coordinate, header, table_of(one));
     header["file"] = file;
     list.push_back(header);
   }
