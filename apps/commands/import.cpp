@@ -142,9 +142,10 @@ int import_foreign(const ImportOptions& options) {
 }  // namespace
 
 Command import_command() {
-  return command(
-      "import", "Makes a run folder of another program's snapshots (LAMMPS, MercuryDPM, Yade, GSD, VTK, CSV)",
-      import_foreign);
+  return command("import",
+                 "Makes a run folder of another program's snapshots (LAMMPS, MercuryDPM, Yade, GSD, VTK, "
+                 "XYZ, H5MD, CSV)",
+                 import_foreign);
 }
 
 }  // namespace drumlin::apps

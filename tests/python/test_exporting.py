@@ -137,6 +137,21 @@ def test_extended_xyz(run):
         assert table.shape[1] + 1 == sum(int(width) for width in properties[2::3])
         np.testing.assert_allclose(table[:, 1:4], instant.place, rtol=1e-8, atol=1e-11)
         np.testing.assert_allclose(table[:, 4:8], np.column_stack([instant.velocity, instant.radius]), rtol=1e-8)
+    for s, instant in zip(read_back(spheres, folder, ["run.xyz"]), instants):
+        require_same(s, instant, spheres, 1e-8)
+        assert [s["period_" + axis] for axis in ("xyz" if spheres else "x")] == pytest.approx(instant.period[:3 if spheres else 1])
+
+
+def test_ase_reads_extended_xyz(run):
+    ase = pytest.importorskip("ase.io")
+    _, folder, instants = run
+    frames = ase.read(written("xyz", folder, instants), index=":", format="extxyz")
+    assert len(frames) == 3
+    for frame, instant in zip(frames, instants):
+        np.testing.assert_allclose(frame.positions, instant.place, rtol=1e-8, atol=1e-11)
+        for name, values in (("velo", instant.velocity), ("radius", instant.radius), ("angular_velocity", instant.omega)):
+            np.testing.assert_allclose(frame.arrays[name], values, rtol=1e-8, atol=1e-8)
+        assert (frame.info["Time"], frame.pbc.tolist()) == (pytest.approx(instant.time), (instant.period > 0).tolist())
 
 
 def test_gsd(run):

@@ -10,16 +10,19 @@ import pytest
 from conftest import SOURCES
 from drumlin.errors import InputError
 from drumlin.importing import frames
+from drumlin.importing.grains import nearest_image
+from drumlin.importing.h5md_files import unit_in_si
 from drumlin.importing.run import Import
 
 FILES = SOURCES / "tests" / "import" / "files"
 SOURCE = {"columns": [], "plane": "xz", "wall_types": [], "contacts": [], "contact_ids": [], "contact_forces": [], "wall_ids": [], "force_on": "first"}
+GRAINS = {"density_kg_m3": 1.0, "mean_diameter_m": 1.0, "may_change": False, "velocities": "given"}
 
 
 def imported(grains, contacts=(), folder=FILES, dimensions=3, tables=None, **source):
     """(report, snapshots) in SI: d = 1 m, sqrt(d/g) = 1 s, density 1."""
     description = {"files": SOURCE | source, "dimensions": dimensions, "gravity": {"acceleration_m_s2": 1.0, "direction_deg": -90.0},
-                   "grains": {"density_kg_m3": 1.0, "mean_diameter_m": 1.0, "may_change": False, "velocities": "given"}} | (tables or {})
+                   "grains": GRAINS} | (tables or {})
     found = Import(description, {"grains": [str(folder / name) for name in grains], "contacts": [str(folder / name) for name in contacts]})
     snapshots = list(found)
     return found.report, snapshots
@@ -223,7 +226,180 @@ def test_series_of_vtp(tmp_path):
     assert "has no time" in refusal(["s0.vtp"], (), tmp_path)
 
 
-TEXT = {"liggghts.dump": LIGGGHTS, "mercury-space.data": {}, "mercury-plane.data": {"dimensions": 2, "plane": "xy"}}
+def require_free_flight(snapshots, distances):
+    """Of grains that fly freely, whose distances at the end another program told in m, across the border of its box."""
+    first, last = snapshots[0], snapshots[-1]
+    for s in snapshots:
+        moved = (s["time"] - first["time"]) * vectors(first, "v_")
+        np.testing.assert_allclose(vectors(s, ""), vectors(first, "") + moved, rtol=1e-5, atol=1e-6 * distances.max())
+    apart = vectors(last, "")[:, None] - vectors(last, "")
+    for i, j in np.ndindex(distances.shape):
+        # The nearest image of a tilted box may be the next one but one.
+        shortest = min(np.linalg.norm(nearest_image(last, "xyz", apart[i, j].copy()) + [k * last["period_x"] + m * last["tilt_xy"], m * last["period_y"], 0])
+                       for k in (-1, 0, 1) for m in (-1, 0, 1))
+        assert shortest == pytest.approx(distances[i, j], rel=1e-5, abs=1e-6 * distances.max())
+
+
+def test_extended_xyz_of_ase(tmp_path):
+    report, found = imported(["ase.xyz"], length_unit_m=1e-3)
+    assert (report.kind, report.snapshots, report.with_spin, report.unused_columns) == ("xyz", 3, True, ["shade", "species"])
+    require_free_flight(found, 1e-3 * np.loadtxt(FILES / "ase-distances.txt"))
+    assert [found[2][name] for name in ("time", "period_x", "period_y", "period_z", "tilt_xy")] == pytest.approx([1.0, 0.01, 0.009, 0, 0.002])
+    row = (FILES / "ase.xyz").read_text(encoding="utf-8").splitlines()[4].split()  # of id 1
+    assert row[4] == "1" and [1e3 * found[0]["grains/radius"][0], *vectors(found[0], "omega_")[0]] == pytest.approx([float(word) for word in row[8:12]])
+    with gzip.open(tmp_path / "f.gz", "wb") as stream:
+        stream.write((FILES / "ase.xyz").read_bytes())
+    np.testing.assert_array_equal(vectors(imported(["f.gz"], (), tmp_path, length_unit_m=1e-3)[1][1], ""), vectors(found[1], ""))
+    assert "ase.xyz: contacts: there are none in files of the format xyz" in refusal(["ase.xyz"], ["ase.xyz"])
+
+
+def test_headings_of_extended_xyz(tmp_path):
+    def written(head, rows="1 0 0 0 1 2 3 0.5\n"):
+        (tmp_path / "f").write_text(f"1\n{head}\n{rows}", encoding="utf-8")
+        return "f"
+
+    properties = "Properties=type:I:1:pos:R:3:vel:R:3:Radius:R:1 "
+    for head, source in ((properties + "step=4", {"step_s": 0.25}), (properties + "Time=1", {}), ("Timestep=2 time='1'  " + properties, {"step_s": 9.0})):
+        _, (s,) = imported([written(head)], (), tmp_path, **source)
+        assert (s["time"], s["period_x"], vectors(s, "v_").tolist()) == (1, 0, [[1, 2, 3]])
+    lattice = 'Time=0 Lattice="2 0 0 0 2 0 0 0 2" '
+    assert imported([written(lattice + properties)], (), tmp_path)[1][0]["period_z"] == 2  # periodic where it does not say
+    assert imported([written(lattice + "pbc=[F,F,F] " + properties)], (), tmp_path)[1][0]["period_z"] == 0
+    assert imported([written("Time=0 " + properties)], (), tmp_path, wall_types=[2])[1][0]["grains/radius"] == 0.5
+    for head, message in {properties: "f:2: has no time (allowed: Time or Step, or files.interval_s",
+                          properties + "Step=1": "Step: counts steps whose length is not known",
+                          "Time=0 Properties=pos:R": 'Properties: is "pos:R"', "Time=0 Properties=x:R:8": "names no pos",
+                          "Time=0 Properties=pos:R:3:pos:R:5": "names pos twice", "Time=0 Properties=type:I:1:pos:R:3:vel:R:4": "vel: has 4 components",
+                          "Time=0 Properties=type:I:1:pos:R:3:vel:R:3:size:R:1": "radius: no such column among type, pos, vel, size",
+                          lattice.replace("0 0 0 2", "0 1 0 2") + properties: "Lattice: has the edges", "Time=x " + properties: 'time: "x" is no number',
+                          lattice + "pbc=yes " + properties: 'pbc: is "yes"', lattice.replace(" 0 2", "") + properties: "Lattice: holds 5 numbers"}.items():
+        assert message in refusal([written(head)], (), tmp_path), head
+
+
+def test_h5md_of_mdanalysis(tmp_path):
+    (tmp_path / "m.h5").write_bytes(gzip.decompress((FILES / "mdanalysis.h5md.gz").read_bytes()))
+    report, found = imported(["m.h5"], (), tmp_path)
+    assert (report.kind, report.snapshots, report.with_spin) == ("h5md", 3, False)
+    require_free_flight(found, np.loadtxt(FILES / "mdanalysis-distances.txt"))
+    assert [found[2][name] for name in ("time", "period_x", "tilt_xy")] == pytest.approx([20e-12, 10e-9, 3.0781813e-9], rel=1e-7)
+    np.testing.assert_allclose(found[1]["grains/radius"], 1e-9 * np.linspace(1, 2, 5))
+    assert "edges/value: has the unit \"nm\", which length_unit_m of the description contradict" in refusal(["m.h5"], (), tmp_path, length_unit_m=1e-3)
+    assert len(imported(["m.h5"], (), tmp_path, length_unit_m=1e-9)[1]) == 3
+
+
+def write_h5md(path, frames_):
+    """By its document, version 1.1."""
+    with h5py.File(path, "w") as file:
+        file.create_group("h5md").attrs["version"] = (1, 1)
+        group = file.create_group("particles/grains")
+        box = group.create_group("box")
+        box.attrs["dimension"], box.attrs["boundary"] = 3, [b"periodic", b"none", b"none"]
+        box["edges"] = np.array([2.0, 1.0, 1.0])
+        for k, name in enumerate(("position/value", "velocity/value")):
+            group[name] = np.array([packing(6, number)[k] for number in range(frames_)])
+        group["position/step"], group["position/time"] = 10 * np.arange(frames_), 0.5 * np.arange(frames_)
+        group["velocity/step"], group["velocity/time"] = group["position/step"], group["position/time"]
+        group["radii"] = packing(6)[2]
+
+
+def test_h5md_by_its_document(tmp_path):
+    path = tmp_path / "a.h5"
+
+    def changed(change, *words, **source):
+        write_h5md(path, 5)
+        with h5py.File(path, "a") as file:
+            change(file["particles/grains"], *words)
+        return imported(["a.h5"], (), tmp_path, **source)[1]
+
+    def each_second(group):  # as LAMMPS does: position velocity every 2
+        group["velocity/value_"] = group["velocity/value"][::2]
+        del group["velocity/value"], group["velocity/step"], group["velocity/time"]
+        group["velocity/value"], group["velocity/step"] = group["velocity/value_"], [0, 20, 40]
+
+    found = changed(each_second)
+    assert [s["time"] for s in found] == [0, 1, 2] and found[0]["period_x"] == 2 and found[0]["period_y"] == 0
+    for s, k in zip(found, (0, 2, 4)):
+        for name, values in (("", packing(6, k)[0]), ("v_", packing(6, k)[1])):
+            np.testing.assert_array_equal(vectors(s, name), values)
+        np.testing.assert_array_equal(s["grains/radius"], packing(6)[2])
+
+    def equally_spaced(group):
+        del group["position/step"], group["position/time"], group["velocity"]
+        group["position/step"] = 20
+        group["position/step"].attrs["offset"] = 100
+
+    with pytest.raises(InputError, match="v_x: no such column"):
+        changed(equally_spaced, step_s=0.1)
+    found = changed(equally_spaced, step_s=0.1, tables={"grains": GRAINS | {"velocities": "displacements"}})
+    assert [s["time"] for s in found] == pytest.approx([12, 14, 16, 18])
+
+    def images_and_gaps(group):
+        """Grain 2 has left the box twice; the last place is not taken at the end."""
+        group["image"] = np.array([[0, 7, 7]] * 2 + [[-2, 7, 7]] + [[0, 0, 0]] * 3)
+        group.create_dataset("id/value", data=[[5, 4, 3, 2, 1, 0]] * 4 + [[5, 4, 3, 2, 1, -1]], fillvalue=-1)
+        group["id/step"] = group["position/step"]
+
+    found = changed(images_and_gaps, tables={"grains": GRAINS | {"may_change": True}})
+    assert [len(s["grains/x"]) for s in found] == [6, 6, 6, 6, 5]
+    np.testing.assert_array_equal(vectors(found[0], "")[::-1], packing(6)[0] + np.outer(np.arange(6) == 2, [-4, 0, 0]))
+
+    def in_a_plane(group):
+        for name in ("position", "velocity"):
+            values = group[name + "/value"][..., :2]
+            del group[name + "/value"]
+            group[name + "/value"] = values
+        del group["box/edges"]
+        group["box"].attrs["boundary"], group["omega"] = [b"none", b"none"], np.arange(6.0)
+
+    found = changed(in_a_plane, dimensions=2, plane="xy")
+    assert found[0]["grains/spin"].tolist() == [0, -1, -2, -3, -4, -5]
+    np.testing.assert_array_equal(vectors(found[1], "", "xz"), packing(6, 1)[0][:, :2])
+
+    def doubled_then_not_a_number(group):
+        for name in ("position/step", "position/time", "position/value", "velocity/value"):
+            group[name][2] = group[name][1]
+        group["position/value"][3, 2, 1] = np.nan
+
+    with pytest.raises(InputError, match="a.h5:frame 3, row 3: y: is nan"):
+        changed(doubled_then_not_a_number)
+    with h5py.File(path, "a") as file:
+        file["particles/grains/position/value"][3, 2, 1] = 0.5
+    report, found = imported(["a.h5"], (), tmp_path)
+    assert len(found) == 4 and report.left_out == [f"{path}:frame 2: is the snapshot before once more"]
+
+    def other_unit(group, name, unit):
+        group[name].attrs["unit"] = unit
+
+    assert changed(other_unit, "position/time", "60 s")[1]["time"] == 30
+    assert changed(other_unit, "radii", "cm")[0]["grains/radius"][0] == pytest.approx(0.01 * packing(6)[2][0])
+    for (name, unit), message in {("position/time", "AKMA"): '/position/time: has the unit "AKMA" (allowed: one of a time',
+                                  ("radii", "s"): "one of a length", ("radii", "m 1e99"): "one of a length", ("radii", "0-1 m"): "cannot be read"}.items():
+        with pytest.raises(InputError) as refused:
+            changed(other_unit, name, unit)
+        assert message in str(refused.value)
+
+    def shorter(group):
+        group["velocity/value_"] = group["velocity/value"][:3]
+        group["velocity/step_"] = group["velocity/step"][:3]
+        for name in ("value", "step"):
+            del group["velocity/" + name]
+            group.move(f"velocity/{name}_", f"velocity/{name}")
+
+    assert len(changed(shorter)) == 3
+    report, _ = imported(["a.h5"], (), tmp_path)
+    assert report.left_out == [f"{path}:frame 3: is cut off"]
+
+
+def test_units_of_h5md():
+    for text, value, powers in (("nm ps-1", 1e3, (1, -1)), ("60 s", 60, (0, 1)), ("10+3 m", 1e3, (1, 0)), ("um+2 s-1", 1e-12, (2, -1)),
+                                ("degree s-1", np.pi / 180, (0, -1)), ("Angstrom", 1e-10, (1, 0)), ("dam", 10, (1, 0)), ("kHz", 1e3, (0, -1))):
+        found, dimension = unit_in_si(text)
+        assert found == pytest.approx(value, rel=1e-12) and dimension == powers, text
+    assert unit_in_si("AKMA") is None and unit_in_si("nm/ps") is None
+
+
+TEXT = {"liggghts.dump": LIGGGHTS, "mercury-space.data": {}, "mercury-plane.data": {"dimensions": 2, "plane": "xy"}, "ase.xyz": {}}
+LAST_FRAME = {"liggghts.dump": "ITEM: TIMESTEP", "ase.xyz": "5\nLattice"}
 
 
 @pytest.mark.parametrize("name", TEXT)
@@ -234,7 +410,7 @@ def test_frames_cut_off_doubled_or_not_a_number(tmp_path, name):
     assert len(report.left_out) == 1 and "f:" in report.left_out[0] and "is cut off" in report.left_out[0], report
     (tmp_path / "f").write_text(whole[:len(whole) // 8], encoding="utf-8")
     assert "f:" in refusal(["f"], (), tmp_path, **source)
-    begin = whole.rindex("ITEM: TIMESTEP") if "ITEM" in whole else whole.rindex("3 0.01")
+    begin = whole.rindex(LAST_FRAME.get(name, "3 0.01"))
     (tmp_path / "f").write_text(whole + whole[begin:], encoding="utf-8")
     report, twice = imported(["f"], (), tmp_path, **source)
     assert len(twice) == len(found) + 1 and "once more" in report.left_out[0]
@@ -244,12 +420,15 @@ def test_frames_cut_off_doubled_or_not_a_number(tmp_path, name):
     assert '"nan" is no number' in refusal(["f"], (), tmp_path, **source)
 
 
-@pytest.mark.parametrize("name, write", [("a.gsd", write_gsd), ("a.vtkhdf", write_vtkhdf)])
+@pytest.mark.parametrize("name, write", [("a.gsd", write_gsd), ("a.vtkhdf", write_vtkhdf), ("a.h5", write_h5md)])
 def test_binary_files_that_are_cut_off(tmp_path, name, write):
     write(tmp_path / name, 3)
     whole = (tmp_path / name).read_bytes()
     (tmp_path / name).write_bytes(whole[:len(whole) // 2])
     assert name in refusal([name], (), tmp_path, step_s=1.0)
+    write(tmp_path / "b", 3)
+    report, found = imported(["b", name], (), tmp_path, step_s=1.0)
+    assert len(found) == 3 and name in report.left_out[0] and "is cut off" in report.left_out[0]
 
 
 def test_files_in_other_units_or_formats_are_refused(tmp_path):
@@ -265,9 +444,10 @@ def test_files_in_other_units_or_formats_are_refused(tmp_path):
 
 def test_every_format_is_told_by_its_first_bytes(tmp_path):
     write_vtkhdf(tmp_path / "a.vtkhdf", 1)
+    write_h5md(tmp_path / "a.h5", 1)
     for name, kind in {"liggghts.dump": "lammps", "lammps.dump.gz": "lammps", "liggghts.contacts": "lammps", "yade-0.txt": "yade", "mercury-plane.data":
                        "mercury", "mercury-space.data": "mercury", "mercury-plane.fstat": "mercury-fstat", "yade-spheres.100.vtu": "vtk",
-                       "yade-export-intrs-00000000.vtk": "vtk", tmp_path / "a.vtkhdf": "vtkhdf"}.items():
+                       "yade-export-intrs-00000000.vtk": "vtk", tmp_path / "a.vtkhdf": "vtkhdf", tmp_path / "a.h5": "h5md", "ase.xyz": "xyz"}.items():
         assert frames.format_of(FILES / name).name == kind
     (tmp_path / "t.csv").write_text("# a comment\ntime_s,x_m,z_m\n0,1,2\n", encoding="utf-8")
     assert frames.format_of(tmp_path / "t.csv").name == "csv"
@@ -281,7 +461,7 @@ def test_at_most_a_few_frames_live_at_a_time(tmp_path):
     (tmp_path / "d").write_text("".join(f"3 {k} 0 0 0 1 1 1\n{heading}" for k in range(count)), encoding="utf-8")
     (tmp_path / "f").write_text("".join(f"# {k} 1\n# 0 0 0 1 1 1\n# 1 1 0 0 0 0\n{contacts}" for k in range(count)), encoding="utf-8")
     description = {"files": SOURCE, "dimensions": 3, "gravity": {"acceleration_m_s2": 1.0, "direction_deg": -90.0},
-                   "grains": {"density_kg_m3": 1.0, "mean_diameter_m": 1.0, "may_change": False, "velocities": "given"}}
+                   "grains": GRAINS}
     found = Import(description, {"grains": [str(tmp_path / "d")], "contacts": [str(tmp_path / "f")]})
     seen, most = [], 0
 

@@ -6,9 +6,11 @@ import typing
 import numpy as np
 
 from .text import CutOff, InputError, TextFile, refusal
+from .units import units_of
 
 # Largest place, speed, force or time in units of d, sqrt(d/g) and rho0 g d: beyond, a unit is wrong or the other program has lost its grains.
 LARGEST = 1e9
+SAME = 1e-6  # relative: of the digits that a user writes
 
 
 @dataclasses.dataclass
@@ -38,15 +40,19 @@ SI = Scales(1.0, 1.0, 1.0)
 
 @dataclasses.dataclass
 class Cell:
-    """The box of a frame, m: columns of `edges` are its edges along the axes of the file, `periodic` along which it repeats; `origin`: its lower corner."""
+    """The box of a frame, m: columns of `edges` are its edges along the axes of the file, `periodic` along which it repeats."""
 
-    origin: np.ndarray
     edges: np.ndarray
     periodic: tuple
 
     @classmethod
-    def upright(cls, low, high, periodic):
-        return cls(np.array(low, float), np.diag(np.array(high, float) - np.array(low, float)), tuple(periodic))
+    def of_rows(cls, rows, periodic, refuse):
+        """Of edges as rows, which mean nothing along an axis without a period. Refused: a box that lies anyhow, or has no size."""
+        edges = np.where(np.reshape(periodic, (3, 1)), rows, 0.0).T
+        lies_anyhow = np.any(np.abs(np.tril(edges, -1)) > SAME * np.abs(edges).max())
+        if not np.isfinite(edges).all() or lies_anyhow or not np.all(np.diag(edges)[list(periodic)] > 0):
+            refuse(f"has the edges {edges.T.tolist()}", "the first along x, the second in the plane of x and y, periods > 0")
+        return cls(edges, tuple(periodic))
 
 
 @dataclasses.dataclass
@@ -144,6 +150,9 @@ class BinaryFile:
     def __init__(self, path):
         self.path, self.number = path, 0
 
+    def refuse(self, key, what, allowed="", kind=InputError):
+        raise refusal(self.path, self.number, key, what, allowed, kind)
+
 
 class TextFrames:
     """The frames of files, to be iterated over. `unused`: names of columns that told nothing; `cut_off`: where the last frame ends too early and was
@@ -174,3 +183,23 @@ class TextFrames:
                     break
                 self.count += 1
                 yield frame
+
+
+class FramesInUnits(TextFrames):
+    """Of files whose units and times the description tells where they do not."""
+
+    def __init__(self, files, source):
+        super().__init__(files)
+        self.source, self.units = source, units_of(source)
+
+    def time_of(self, refuse, told="", time=None, step=None):
+        """s, of the file, else its step times step_s, else from frame to frame interval_s; `told`: where such files have it."""
+        if time is not None:
+            return float(time) * self.units.time_unit_s
+        if step is not None and "step_s" in self.source:
+            return float(step) * self.source["step_s"]
+        if "interval_s" in self.source:
+            return self.count * self.source["interval_s"]
+        if step is not None:
+            refuse(told, "counts steps whose length is not known", "files.step_s in the description")
+        refuse("", "has no time", f"{told + ', or ' if told else ''}files.interval_s in the description")

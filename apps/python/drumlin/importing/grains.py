@@ -5,10 +5,9 @@ import math
 import numpy as np
 
 from ..errors import InputError
-from .frame import SI, Scales, SphereScales
+from .frame import SAME, SI, Scales, SphereScales
 from .text import shown
 
-SAME = 1e-6  # relative: of the digits that a user writes
 ONE_PLACE = 1e-9  # d
 
 

@@ -4,13 +4,11 @@ import dataclasses
 
 import numpy as np
 
-from .frame import Cell, Column, Frame, TextFrames
+from .frame import SAME, Cell, Column, Frame, TextFrames
 from .text import Columns, CutOff
 from .units import Units, axes_of_files, force_unit
 
 MORE = " of a second set"
-SAME = 1e-6  # relative: of the digits that a user writes
-
 
 STYLES = {"si": Units(), "cgs": Units(1e-2, 1.0, 1e-3), "micro": Units(1e-6, 1e-6, 1e-15), "nano": Units(1e-9, 1e-9, 1e-21)}
 
@@ -51,7 +49,7 @@ class Box:
         self.low, self.edges = low, np.diag(high - low) + [[0, xy, xz], [0, 0, yz], [0, 0, 0]]
 
     def cell(self, metre):
-        return Cell(self.low * metre, self.edges * metre, self.periodic)
+        return Cell(self.edges * metre, self.periodic)
 
 
 class Dump(TextFrames):

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from .frame import Column, Frame, TextFrames
+from .frame import Column, Frame, FramesInUnits
 from .text import Columns, CutOff, shown
-from .units import axes_of_files, force_unit, units_of
+from .units import axes_of_files, force_unit
 
 # Numbers of a line by those of its heading; "" tells nothing. In the plane the file has the spin clockwise.
 PLANE = ["x", "y", "v_x", "v_y", "radius", "", "omega_z", "type"]
@@ -14,12 +14,8 @@ QUANTITIES = {"x": "length", "y": "length", "z": "length", "radius": "length", "
 CONTACT = ["time", "i", "j", "x", "y", "z", "overlap", "spring", "f_n", "f_t", "n_x", "n_y", "n_z", "t_x", "t_y", "t_z"]
 
 
-class Data(TextFrames):
+class Data(FramesInUnits):
     """.data: a heading of number, time and corners of the domain above the grains of each instant, whose ids are their places."""
-
-    def __init__(self, files, source):
-        super().__init__(files)
-        self.units, self.with_type = units_of(source), bool(source["wall_types"])
 
     def frames_of(self, text):
         while (line := text.next_line()) is not None:
@@ -33,7 +29,7 @@ class Data(TextFrames):
             yield self._frame(text, names, head)
 
     def _frame(self, text, names, head):
-        used = [k for k, name in enumerate(names) if name and (name != "type" or self.with_type)]
+        used = [k for k, name in enumerate(names) if name and (name != "type" or self.source["wall_types"])]
         columns = Columns([name or f"number {k + 1}" for k, name in enumerate(names)], used, "spaced", comments=False)
         lines, numbers = text.so_many_rows(columns, int(head[0]), lambda left, most: text.refuse(
             "", f"ends after {most - left} grains of a frame", f"{most}, as its heading says", CutOff))
@@ -46,14 +42,14 @@ class Data(TextFrames):
         return frame
 
 
-class Contacts(TextFrames):
+class Contacts(FramesInUnits):
     """.fstat: three lines with # above the contacts of each instant. A contact of two grains that move is told from both sides, one with a wall or a fixed
     grain from one; at a wall normal and tangent point into it (BaseInteraction::writeToFStat). Images of grains across a period have ids beyond those of
     .data (contacts.py finds the grains)."""
 
     def __init__(self, files, source):
-        super().__init__(files)
-        self.units, self.axes = units_of(source), axes_of_files(source)
+        super().__init__(files, source)
+        self.axes = axes_of_files(source)
         self.force = force_unit(source | {"force_on": "first"}, self.units)
 
     def frames_of(self, text):

@@ -8,7 +8,7 @@ import numpy as np
 from ..errors import InputError
 from . import contacts, grains
 from .frame import LARGEST, Scales
-from .frames import SOURCES, reader_of
+from .frames import SOURCES, format_of_files
 from .view import in_axes_of_description
 
 OTHER_UNIT = 2.0
@@ -110,10 +110,10 @@ class Import:
         kind = next(kind for kind in SOURCES if kind in description)
         self.description = description
         self.source = description[kind] | {"dimensions": description.get("dimensions", 2)}
-        reader = reader_of(kind, files["grains"])
-        self.report = Report(reader.name)
-        self.frames = reader.grains(files["grains"], self.source)
-        self.contact_frames = reader_of(kind, files["contacts"]).contacts(files["contacts"], self.source) if files["contacts"] else None
+        found = format_of_files(kind, files["grains"], "grains")
+        self.report = Report(found.name)
+        self.frames = found.grains(files["grains"], self.source)
+        self.contact_frames = format_of_files(kind, files["contacts"], "contacts").contacts(files["contacts"], self.source) if files["contacts"] else None
 
     def _leave_out(self, where, why):
         self.report.left_out.append(f"{where}: {why}")

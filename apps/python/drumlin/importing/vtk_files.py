@@ -7,10 +7,9 @@ import xml.etree.ElementTree
 import numpy as np
 
 from ..errors import InputError
-from .frame import BinaryFile, TextFrames, binary_frame
+from .array_names import contact_columns, grain_columns
+from .frame import BinaryFile, FramesInUnits, binary_frame
 from .text import CutOff, refusal
-from .units import units_of
-from .vtk_names import contact_columns, grain_columns
 
 
 def _vtk():
@@ -79,48 +78,32 @@ def _collection(path):
     return sorted(found, key=lambda entry: entry[0])
 
 
-class VtkFrames(TextFrames):
+class VtkFrames(FramesInUnits):
     """A frame per file. Its time is that of the .pvd or TimeValue, else the last number in the name of the file times step_s, else the files are interval_s
     apart."""
 
     opened = BinaryFile
 
-    def __init__(self, files, source):
-        super().__init__(files)
-        self.source, self.units = source, units_of(source)
-
     def frames_of(self, text):
         with open(text.path, "rb") as stream:
             collection = b'type="Collection"' in stream.read(1024)
         for time, path in _collection(text.path) if collection else [(None, text.path)]:
-            found = dataset_of(path)
-            frame = binary_frame(str(path), self.count, *self.columns_of(str(path), found))
-            frame.time = self._time_of(found, path) if time is None else time * self.units.time_unit_s
+            found, file = dataset_of(path), BinaryFile(path)
+            frame = binary_frame(str(path), self.count, *self.columns_of(file, found))
+            stored, numbers = arrays_of(found.GetFieldData()), re.findall(r"\d+", pathlib.Path(path).stem) if "step_s" in self.source else []
+            if time is None:
+                time = next((np.ravel(stored[name])[0] for name in ("TimeValue", "TIME") if name in stored), None)
+            frame.time = self.time_of(file.refuse, "TimeValue in the file, a .pvd, files.step_s", time, numbers[-1] if numbers else None)
             yield frame
-
-    def _time_of(self, found, path):
-        stored = arrays_of(found.GetFieldData())
-        for name in ("TimeValue", "TIME"):
-            if name in stored:
-                return float(np.ravel(stored[name])[0]) * self.units.time_unit_s
-        numbers = re.findall(r"\d+", pathlib.Path(path).stem)
-        if "step_s" in self.source and numbers:
-            return int(numbers[-1]) * self.source["step_s"]
-        if "interval_s" in self.source:
-            return self.count * self.source["interval_s"]
-        raise refusal(path, 0, "", "has no time", "TimeValue in the file, a .pvd, or files.step_s or files.interval_s in the description")
 
 
 class Grains(VtkFrames):
-    def columns_of(self, path, found):
-        return grain_columns(points_of(found), arrays_of(found.GetPointData()), self.units, self.unused)
+    def columns_of(self, file, found):
+        return grain_columns(points_of(found), arrays_of(found.GetPointData()), self, file.refuse)
 
 
 class Contacts(VtkFrames):
     """Lines between two points whose places are the ids of the grains, as Yade's VTKRecorder writes them, or with arrays of ids."""
 
-    def columns_of(self, path, found):
-        def refuse(key, what, allowed):
-            raise refusal(path, 0, key, what, allowed)
-
-        return contact_columns(lines_of(found), arrays_of(found.GetCellData()), self.source, self.units, refuse)
+    def columns_of(self, file, found):
+        return contact_columns(lines_of(found), arrays_of(found.GetCellData()), self.source, self.units, file.refuse)

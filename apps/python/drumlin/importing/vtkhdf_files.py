@@ -1,20 +1,9 @@
 """VTKHDF files: PolyData or UnstructuredGrid, one instant or a series (its Steps)."""
 
-import h5py
 import numpy as np
 
-from ..errors import InputError
-from .frame import BinaryFile, TextFrames, binary_frame
-from .text import CutOff, refusal
-from .units import units_of
-from .vtk_names import contact_columns, grain_columns
-
-BROKEN = (OSError, KeyError, ValueError, IndexError, TypeError)
-VTK_LINE = 3
-
-
-def text_of(value):
-    return value.decode() if isinstance(value, bytes) else str(value)
+from .array_names import contact_columns, grain_columns
+from .hdf5_files import Hdf5Frames, text_of, whole
 
 
 class Series:
@@ -22,10 +11,8 @@ class Series:
 
     def __init__(self, root):
         self.root, self.kind, self.steps = root, text_of(root.attrs["Type"]), root.get("Steps")
-        self.times = np.array(self.steps["Values"], float) if self.steps else None
-
-    def __len__(self):
-        return 1 if self.steps is None else len(self.times)
+        self.times = np.array(self.steps["Values"], float) if self.steps else [None]
+        self.numbers = range(len(self.times))
 
     def _parts(self, step):
         """Of the arrays that have an entry per part."""
@@ -77,63 +64,27 @@ class Series:
         return np.asarray(connectivity).reshape(-1, 2), arrays
 
 
-def whole(data, first, count):
-    """Rows of a dataset, all of which must be there."""
-    if first + count > len(data):
-        raise ValueError(f"{data.name} holds {len(data)} of {first + count} rows")
-    return data[first:first + count]
+class VtkhdfFrames(Hdf5Frames):
+    def series_of(self, text, file):
+        if text_of(file["VTKHDF"].attrs.get("Type", b"")) not in ("PolyData", "UnstructuredGrid"):
+            text.refuse("VTKHDF", "is no group of the type PolyData or UnstructuredGrid", "VTKHDF")
+        return Series(file["VTKHDF"])
 
-
-class VtkhdfFrames(TextFrames):
-    opened = BinaryFile
-
-    def __init__(self, files, source):
-        super().__init__(files)
-        self.source, self.units = source, units_of(source)
-
-    def frames_of(self, text):
-        try:
-            file = h5py.File(text.path, "r")
-        except OSError as error:
-            raise refusal(text.path, 0, "", f"is cut off or damaged: {error}", "a whole file of HDF5", CutOff) from error
-        with file:
-            if "VTKHDF" not in file or text_of(file["VTKHDF"].attrs.get("Type", b"")) not in ("PolyData", "UnstructuredGrid"):
-                raise refusal(text.path, 0, "VTKHDF", "is no group of the type PolyData or UnstructuredGrid", "VTKHDF")
-            series = Series(file["VTKHDF"])
-            for number in range(len(series)):
-                text.number = self.first_line = f"frame {number}"
-                try:
-                    count, columns = self.columns_of(text, series, number)
-                except InputError:
-                    raise
-                except BROKEN as error:
-                    raise refusal(text.path, text.number, "", f"cannot be read: {error}", "whole arrays", CutOff) from error
-                frame = binary_frame(text.path, number, count, columns)
-                frame.time = self._time_of(text, series, number)
-                yield frame
-
-    def _time_of(self, text, series, number):
-        if series.times is not None:
-            return float(series.times[number]) * self.units.time_unit_s
-        if "interval_s" not in self.source:
-            raise refusal(text.path, text.number, "", "has no time", "Steps in the file or files.interval_s in the description")
-        return self.count * self.source["interval_s"]
+    def frame_of(self, text, series, number):
+        return *self.columns_of(text, series, number), self.time_of(text.refuse, "Steps in the file", series.times[number]), None
 
 
 class Grains(VtkhdfFrames):
     def columns_of(self, text, series, number):
         points = series.points(number)
-        return grain_columns(points, series.point_arrays(number, len(points)), self.units, self.unused)
+        return grain_columns(points, series.point_arrays(number, len(points)), self, text.refuse)
 
 
 class Contacts(VtkhdfFrames):
     """Lines of a PolyData, with ids of the grains as their points or in arrays."""
 
     def columns_of(self, text, series, number):
-        def refuse(key, what, allowed):
-            raise refusal(text.path, text.number, key, what, allowed)
-
         if series.kind == "PolyData" and "Lines" not in series.root:
-            refuse("contacts", "there are no lines", "a PolyData with Lines")
+            text.refuse("contacts", "there are no lines", "a PolyData with Lines")
         ends, arrays = series.lines(number)
-        return contact_columns(ends, arrays, self.source, self.units, refuse)
+        return contact_columns(ends, arrays, self.source, self.units, text.refuse)

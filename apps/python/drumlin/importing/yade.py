@@ -1,19 +1,14 @@
 """Text of Yade: export.text and export.textExt of yade.export, a file per instant."""
 
-from .frame import Column, Frame, TextFrames
+from .frame import Column, Frame, FramesInUnits
 from .text import Columns
-from .units import units_of
 
 QUANTITIES = {"id": "number", "x": "length", "y": "length", "z": "length", "r": "length", "v_x": "velocity", "v_y": "velocity", "v_z": "velocity",
               "omega_x": "rate", "omega_y": "rate", "omega_z": "rate"}
 
 
-class Text(TextFrames):
+class Text(FramesInUnits):
     """`#format x_y_z_r...` above a row per sphere. Names behind attrs_ are those of `columns` of the description. Files are interval_s apart."""
-
-    def __init__(self, files, source):
-        super().__init__(files)
-        self.units, self.attributes, self.interval_s = units_of(source), source["columns"], source.get("interval_s")
 
     def frames_of(self, text):
         line = text.next_line()
@@ -23,7 +18,7 @@ class Text(TextFrames):
         self.first_line = text.number
         names = [*"xyzr", *[word for word in words[1].split("_")[4:] if word != "attrs"]]
         if words[1].endswith("_attrs"):
-            names += self.attributes
+            names += self.source["columns"]
         used = [k for k, name in enumerate(names) if name in QUANTITIES]
         self.unused |= set(names) - QUANTITIES.keys()
         columns = Columns(names, used, "spaced" if len(names) == 4 else " ", comments=True)
@@ -31,9 +26,8 @@ class Text(TextFrames):
         while rows := text.rows(columns):
             parts.append(rows)
         lines, numbers = text.joined(parts, columns)
-        if self.interval_s is None:
-            text.refuse("", "has no time", "files.interval_s in the description")
-        frame = Frame(text.path, lines, self.first_line, {}, ", ".join(names), {"radius": "r"}, self.count * self.interval_s, in_file_axes=True)
+        frame = Frame(text.path, lines, self.first_line, {}, ", ".join(names), {"radius": "r"}, in_file_axes=True)
+        frame.time = self.time_of(text.refuse)
         for k, values in zip(used, numbers):
             frame.columns["radius" if names[k] == "r" else names[k]] = Column(values * self.units.of(QUANTITIES[names[k]]), QUANTITIES[names[k]])
         yield frame
