@@ -39,7 +39,9 @@ RunFolder read_run_folder(const fs::path& folder) {
   result.files = open_result_folder(folder);
   const auto run = read_record<RunRecord>(checked_file(result.files, "run.json"));
   if (run.imported.value_or(false))
-    throw InputError(folder.string() + ": is an imported run, which has no scene; drumlin measure reads it");
+    throw InputError(
+        folder.string() +
+        ": is an imported run, which has no scene (drumlin measure and drumlin export --to read it)");
   result.scene = read_scene(checked_file(result.files, "scene.toml"));
   result.scales = scales_of(result.scene);
   const auto status = enumerator<RunStatus>(run.status);
