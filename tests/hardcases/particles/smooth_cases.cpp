@@ -138,12 +138,13 @@ std::vector<HardCheck> rolling_pendulum() {
 TestScene hexagons(double gap, double thermal_speed) {
   std::vector<Grain> discs;
   std::mt19937_64 random(7);
-  std::normal_distribution<double> component(0, thermal_speed);
+  std::normal_distribution<double> normal(0, 1);  // a width of 0 it does not take
+  const auto component = [&] { return thermal_speed * normal(random); };
   const double apart = 1 + gap;
   for (int row = 0; row < 10; ++row)
     for (int k = 0; k < 10 - row % 2; ++k)
-      discs.push_back({apart * (k + 0.5 * (row % 2)), apart * row * std::sqrt(3.0) / 2, 1, component(random),
-                       component(random)});
+      discs.push_back(
+          {apart * (k + 0.5 * (row % 2)), apart * row * std::sqrt(3.0) / 2, 1, component(), component()});
   const double low = -0.5 - gap, right = 9 * apart + 0.5 + gap,
                top = 9 * apart * std::sqrt(3.0) / 2 + 0.5 + gap;
   return scene_of(discs)
