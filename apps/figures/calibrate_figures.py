@@ -9,7 +9,6 @@ import itertools
 import math
 import sys
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 import script
@@ -42,7 +41,7 @@ def draw_amount(axes, memory):
         axes.plot(points["I"], points["amount"], "o", color=color, alpha=0.35, markersize=3, linestyle="none", label=style.plain(points["run"]))
     curve, line = memory["amount"]["curve"], memory["amount"]["bed_line"]
     axes.fill_between(curve["I"], curve["low"], curve["high"], color="0.3", alpha=0.35, linewidth=0)
-    axes.plot(curve["I"], curve["value"], color=style.PAPER, label=f"table: rms {memory['amount']['rms_misfit']:.4f}, 99 % band")
+    axes.plot(curve["I"], curve["value"], color=style.PAPER, label=f"table: rms {memory['amount']['rms_misfit']:.4f}")
     if line is not None:
         inertial = np.geomspace(curve["I"][0], 1e-3, 20)
         axes.plot(inertial, line["a"] + line["b"] * np.log(inertial), "--", color=style.CONTINUUM,
@@ -59,11 +58,11 @@ def draw_arc(axes, arc, with_legend):
     """Axes of stress and strain rate along an arc about the drum's axis."""
     axes.plot(arc["angle_deg"], arc["stress_deg"], "o-", color=style.PARTICLES, label="stress")
     axes.plot(arc["angle_deg"], arc["law_deg"], color=style.CONTINUUM, label="law with memory")
-    axes.plot(arc["angle_deg"], arc["strain_rate_deg"], "--", color="0.45", label="strain rate (no memory)")
+    axes.plot(arc["angle_deg"], arc["strain_rate_deg"], "--", color="0.45", label="strain rate")
     axes.axhline(0, color="0.5", linewidth=1)
     axes.set_title(f"r = {arc['radius'][0]:.0f} to {arc['radius'][1]:.0f} d")
-    axes.set_xlabel("angle from below the axis, downslope +  [°]")
-    axes.set_ylabel("axis less that of simple shear  [°]")
+    axes.set_xlabel("angle, downslope +  [°]")
+    axes.set_ylabel("axis less that of\nsimple shear  [°]")
     if with_legend:
         axes.legend()
 
@@ -97,11 +96,11 @@ def draw_curvature(axes, nonlocal_record):
 
 def draw_misfits(axes, nonlocal_record):
     given = nonlocal_record["given_mu_s"]
-    axes.plot([law["mu_s"] for law in given], [law["rms_bed"] for law in given], "s-", color=style.CONTINUUM, label=r"threshold $\mu_s$, its best A")
-    axes.axhline(nonlocal_record["rms_local_bed"], color=style.PARTICLES, label="function of I: no threshold")
+    axes.plot([law["mu_s"] for law in given], [law["rms_bed"] for law in given], "s-", color=style.CONTINUUM, label=r"threshold $\mu_s$")
+    axes.axhline(nonlocal_record["rms_local_bed"], color=style.PARTICLES, label="no threshold")
     axes.set_ylim(bottom=0)
     axes.set_xlabel(r"$\mu_s$")
-    axes.set_ylabel(r"residual of $|s|/p$ in the bed, rms")
+    axes.set_ylabel("residual of $|s|/p$\nin the bed, rms")
     axes.set_title("Threshold of the fluidity")
     axes.legend()
 
@@ -149,7 +148,7 @@ def draw_misalignment(axes, record):
     axes.plot(record["turn"]["axis_angle"]["I"], record["turn"]["axis_angle"]["degrees"], color=style.PAPER, label="fit")
     axes.axhline(0, color="0.5", linewidth=1)
     axes.set_ylim(-50, 30)
-    axes.set_ylabel("axis of stress less that of strain rate  [°]")
+    axes.set_ylabel("axis of stress less\nthat of strain rate  [°]")
     over_inertial_number(axes, record)
 
 
@@ -170,16 +169,15 @@ def main():
     if record["turn"] is not None and "axis_angle_deg" in record["points"][0]:
         parts.append((draw_misalignment, "Non-coaxiality angle"))
     further = [panel for panels_of, key in ((memory_panels, "memory"), (nonlocal_panels, "nonlocal")) if key in record for panel in panels_of(record[key])]
-    rows = math.ceil((len(parts) + len(further)) / 2)
-    figure, panels = plt.subplots(rows, 2, figsize=(10, 4.2 * rows), squeeze=False)
-    for axes, (draw, title) in zip(panels.flat, parts):
+    alone = 2 + ("memory" in record)
+    figure, places = style.places([1] * alone + [2] * math.ceil((len(parts) + len(further) - alone) / 2), 3.4)
+    panels = [figure.add_subplot(place) for place in places]
+    for axes, (draw, title) in zip(panels, parts):
         draw(axes, record)
         axes.set_title(title)
-        axes.legend(loc="lower right", fontsize=9)
-    for axes, draw in zip(panels.flat[len(parts):], further):
+    panels[0].legend(loc="lower right")
+    for axes, draw in zip(panels[len(parts):], further):
         draw(axes)
-    for axes in panels.flat[len(parts) + len(further):]:
-        axes.axis("off")
     style.save(figure, sys.argv[2], record["reduced"])
 
 

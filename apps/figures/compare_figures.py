@@ -10,6 +10,7 @@ import pathlib
 import sys
 
 import matplotlib.pyplot as plt
+import matplotlib.ticker
 import numpy as np
 
 import compare_maps
@@ -17,6 +18,7 @@ import script
 import style
 
 DEEPEST = -60  # d, of the slices
+MOST_SLICES = 5  # beside one another
 
 
 def names_of(comparison):
@@ -67,16 +69,16 @@ def draw(axes, columns, name, names, logarithmic=False):
         limit_to_the_packing(axes, name, columns)
 
 
-def over_depth(panels, columns, comparison, size):
-    """Panels side by side; `panels` as (column, logarithmic). None where no side has any of them."""
+def over_depth(panels, columns, comparison):
+    """Panels, in two columns where they are four; `panels` as (column, logarithmic). None where no side has any of them."""
     panels = [(name, log) for name, log in panels if name + "_particles" in columns]
     if not panels:
         return None
-    figure, row = plt.subplots(1, len(panels), figsize=size, squeeze=False)
-    for axes, (name, logarithmic) in zip(row[0], panels):
+    figure, places = style.panels(len(panels), 2 if len(panels) > 3 else 1)
+    for axes, (name, logarithmic) in zip(places, panels):
         draw(axes, columns, name, names_of(comparison), logarithmic)
         mark_depths(axes, comparison["scalars"]["H"]["particles"]["value"], comparison["zones"])
-    row[0][0].legend()
+    places[0].legend()
     return figure
 
 
@@ -105,11 +107,12 @@ def slices(comparison, folder):
     if not comparison["slices"]:
         return None
     rows = [("v_x", False), ("log10_shear_rate", False), ("sigma_zz", False), ("sigma_xz", False), ("mu", False)]
-    figure, grid = plt.subplots(len(rows), len(comparison["slices"]), figsize=(3.1 * len(comparison["slices"]), 12.5),
-                                squeeze=False, sharey="row", sharex=True)
-    overlays = [style.read_profiles(folder / "overlay_slices" / f"x{entry['position']:+.1f}.csv")[1] for entry in comparison["slices"]]
+    entries = [comparison["slices"][k] for k in np.unique(np.linspace(0, len(comparison["slices"]) - 1, MOST_SLICES).round().astype(int))]
+    figure, grid = style.panels(len(rows) * len(entries), len(entries), 2.2, sharey="row", sharex=True)
+    grid = np.array(grid).reshape(len(rows), len(entries))
+    overlays = [style.read_profiles(folder / "overlay_slices" / f"x{entry['position']:+.1f}.csv")[1] for entry in entries]
     lowest = lowest_shown(overlays, [f"{name}_{side}" for name, _ in rows for side in ("particles", "continuum")])
-    for column, (entry, columns) in enumerate(zip(comparison["slices"], overlays)):
+    for column, (entry, columns) in enumerate(zip(entries, overlays)):
         for row, (name, logarithmic) in enumerate(rows):
             axes = grid[row][column]
             draw(axes, columns, name, names_of(comparison), logarithmic)
@@ -119,7 +122,8 @@ def slices(comparison, folder):
                 axes.set_ylabel("")
             if row + 1 < len(rows):
                 axes.set_xlabel("")
-        grid[0][column].set_title(f"x = {entry['position']:+.1f} d")
+        grid[0][column].set_title(f"{entry['position']:+.3g} d")
+        grid[0][column].xaxis.set_major_locator(matplotlib.ticker.MaxNLocator(2))
     for row, (name, _) in enumerate(rows):
         # Between wall and surface alone: what touches either is in no zone and would set the scale.
         curves = [(np.asarray(line.get_xdata()), np.asarray(line.get_ydata())) for axes in grid[row] for line in axes.get_lines()
@@ -127,7 +131,8 @@ def slices(comparison, folder):
         values = np.concatenate([y[np.isfinite(y) & (x < 0) & (x > np.min(x, where=np.isfinite(y), initial=0) + 3)] for x, y in curves])
         if values.size:
             grid[row][0].set_ylim(*(np.quantile(values, (0, 1)) + 0.05 * np.ptp(values) * np.array([-1, 1])))
-    grid[0][0].legend()
+    first, second = names_of(comparison)
+    figure.suptitle(style.title_of(style.plain(f"slices at x; dots: {first}, line: {second}"), comparison["reduced"]))
     return figure
 
 
@@ -137,12 +142,12 @@ def main():
     reduced, names = comparison["reduced"], names_of(comparison)
     _, columns = style.read_profiles(folder / "overlay.csv")
     sheets = {
-        "velocity": ([("v_x", False), ("v_x", True), ("v_z", False)], (13, 4.2)),
-        "shear_rate": ([("shear_rate", False), ("shear_rate", True)], (11, 4.4)),
-        "stresses": ([("sigma_zz", False), ("sigma_xz", False), ("sigma_xx", False), ("p", False)], (16, 4.2)),
-        "ratios": ([("I", True), ("mu", False), ("k", False), ("axis_angle_deg", False)], (16, 4.2)),
+        "velocity": [("v_x", False), ("v_x", True), ("v_z", False)],
+        "shear_rate": [("shear_rate", False), ("shear_rate", True)],
+        "stresses": [("sigma_zz", False), ("sigma_xz", False), ("sigma_xx", False), ("p", False)],
+        "ratios": [("I", True), ("mu", False), ("k", False), ("axis_angle_deg", False)],
     }
-    drawings = {name: functools.partial(over_depth, panels, columns, comparison, size) for name, (panels, size) in sheets.items()}
+    drawings = {name: functools.partial(over_depth, panels, columns, comparison) for name, panels in sheets.items()}
     drawings["friction"] = lambda: friction(columns, names)
     drawings["slices"] = lambda: slices(comparison, folder)
     if comparison["maps"]:

@@ -3,7 +3,6 @@
 import math
 
 import matplotlib.colors
-import matplotlib.pyplot as plt
 import numpy as np
 
 import quantity_table
@@ -19,6 +18,7 @@ SHEETS = {
     "maps_mu": ("mu", r"$\mu = \tau/p$", False),
     "maps_axis_angle": ("axis_angle_deg", style.axis_label("axis_angle_deg"), False),
 }
+DRUM = 2.04, 1.32  # width and height of what is shown of a drum, in its radius
 WORST_INTERVALS = 3  # intervals at which the colour of the last panel ends
 
 
@@ -45,7 +45,7 @@ def drums(comparison, snapshot, maps):
     speed = np.ma.hypot(grids["v_x"], grids["v_z"])
     top = max(float(speed.max()), float(np.quantile(grains["speed"], 0.999)))
     norm = matplotlib.colors.LogNorm(1e-3 * top, top)
-    figure, (left, right) = plt.subplots(1, 2, figsize=(14, 4.9))
+    figure, (left, right) = style.maps(2, 1, *DRUM)
     style.discs(left, grains["x"], grains["z"], grains["radius"], np.maximum(grains["speed"], 1e-3 * top), cmap="viridis", norm=norm)
     outline(left, radius, axis_depth)
     left.set_title(style.title_of("particles, one instant", reduced))
@@ -113,24 +113,21 @@ def sheet(grids, header, field, label, logarithmic, names, reduced):
     if quantity_table.field(field).compared == "half turns":  # of both signs, and noise where no axis is known
         first, second = (np.ma.masked_where(~inside, side) for side in (first, second))
         norm, palette = symmetric(np.ma.concatenate([first, second]), np.concatenate([inside, inside])), "RdBu_r"
-    panels = [(first, norm, palette, names[0], label), (second, norm, palette, names[1], label),
-              (difference, symmetric(difference, inside), "RdBu_r", f"{names[1]} - {names[0]}",
-               "decades" if logarithmic else "difference, same unit")]
+    panels = [(first, norm, palette, names[0]), (second, norm, palette, names[1]),
+              (difference, symmetric(difference, inside), "RdBu_r", "second - first" + ("  [decades]" if logarithmic else ""))]
     if half_width is not None:
         over = np.ma.masked_where(~inside, difference_of(field, first, second, False) / np.ma.masked_less_equal(half_width, 0))
-        panels.append((over, symmetric(over, inside, WORST_INTERVALS), "RdBu_r", "the same in intervals",
-                       f"99 % half widths of the {names[0].split(':')[0]}"))
-    figure, grid = plt.subplots(2, 2, figsize=(13, 8))
-    for axes, (values, colours, cmap, title, text) in zip(grid.flat, panels):
+        panels.append((over, symmetric(over, inside, WORST_INTERVALS), "RdBu_r", "the same in half widths"))
+    figure, places = style.maps(len(panels), 2, *DRUM)
+    for axes, (values, colours, cmap, title) in zip(places, panels):
         if logarithmic and colours is norm:
             values = np.ma.maximum(values, norm.vmin)
         image = axes.pcolormesh(grids["x"], grids["z"], values, norm=colours, cmap=cmap, shading="nearest", rasterized=True)
         axes.contour(grids["x"], grids["z"], grids["zone"].filled(0), levels=[0.5, 1.5], colors="black", linewidths=0.6)
         outline(axes, float(header["drum_radius"]), float(header["axis_depth"]))
-        axes.set_title(style.title_of(title, reduced))
-        figure.colorbar(image, ax=axes, shrink=0.85, label=text, extend="both")
-    for axes in grid.flat[len(panels):]:
-        axes.set_visible(False)
+        axes.set_title(title)
+        figure.colorbar(image, ax=axes, shrink=0.85, extend="both")
+    figure.suptitle(style.title_of(label, reduced))
     return figure
 
 

@@ -9,7 +9,6 @@ import pathlib
 import sys
 
 import matplotlib.colors
-import matplotlib.pyplot as plt
 import numpy as np
 import quantity_table
 import result_files
@@ -59,36 +58,36 @@ def maps(flow, header, grids):
     radius = float(header.get("drum_radius", header.get("outer_radius")))
     frame = "in the frame of the drum" if "drum_radius" in header else "in the laboratory frame"
     speed = np.ma.hypot(grids["v_x"], grids["v_z"])
-    figure, axes = plt.subplots(2, 2, figsize=(13, 8.4))
+    figure, axes = style.maps(4, 2, np.ptp(grids["x"]), np.ptp(grids["z"]))
     log = matplotlib.colors.LogNorm
     under_tension = " (white: $p < 0$)" if (grids["p"] <= 0).any() else ""
     top = float(speed.max())
-    panels = [(speed, rf"speed {frame}  [$\sqrt{{gd}}$]", log(top * 1e-4, top), "viridis"),
-            (grids["I"], r"inertial number $I$" + under_tension, log(1e-5, 1), "viridis"),
-            (grids["p"], r"pressure $p$  [$\rho_0 g d$]",
+    panels = [(speed, r"speed  [$\sqrt{gd}$]", log(top * 1e-4, top), "viridis"),
+            (grids["I"], "$I$" + under_tension, log(1e-5, 1), "viridis"),
+            (grids["p"], style.axis_label("p"),
              matplotlib.colors.Normalize(0, float(grids["p"].max())), "viridis"),
-            (grids["mu"], r"friction $\mu = |\tau|/p$" + under_tension, matplotlib.colors.Normalize(0, 0.4), "viridis")]
-    for place, (values, label, norm, cmap) in zip(axes.flat, panels):
+            (grids["mu"], r"$\mu = |\tau|/p$" + under_tension, matplotlib.colors.Normalize(0, 0.4), "viridis")]
+    for place, (values, label, norm, cmap) in zip(axes, panels):
         draw_map(place, grids, values, label, norm, cmap, header, flow.get("surface"))
     # A few arrows on the map of the speed; the directions alone, for the speeds span decades.
     step = max(1, int(radius / 12 / (grids["x"][1] - grids["x"][0])))
     cut = (slice(None, None, step), slice(None, None, step))
     x, z = np.meshgrid(grids["x"], grids["z"])
-    axes[0, 0].quiver(x[cut], z[cut], (grids["v_x"] / speed)[cut], (grids["v_z"] / speed)[cut], color="white", alpha=0.7,
+    axes[0].quiver(x[cut], z[cut], (grids["v_x"] / speed)[cut], (grids["v_z"] / speed)[cut], color="white", alpha=0.7,
                       scale=32, width=0.0025)
     ill_posed = grids["well_posedness_margin"] < 0
     if ill_posed.any():
-        axes[0, 1].contourf(grids["x"], grids["z"], ill_posed.astype(float), levels=[0.5, 1.5], colors="none",
+        axes[1].contourf(grids["x"], grids["z"], ill_posed.astype(float), levels=[0.5, 1.5], colors="none",
                             hatches=["////"])
-        axes[0, 1].set_title(r"inertial number $I$ (hatched: ill-posed)" + under_tension)
-    figure.suptitle(style.title_of(title(flow), flow["reduced"]))
+        axes[1].set_title("$I$ (hatched: ill-posed)")
+    figure.suptitle(style.title_of(f"{title(flow)};\nspeed {frame}", flow["reduced"]))
     return figure
 
 
 def profiles(folder, flow):
     _, columns = style.read_profiles(folder / "profiles.csv")
     z, H = columns["z"], flow.get("H")
-    figure, axes = plt.subplots(1, 4, figsize=(14, 5.2), sharey=True)
+    figure, axes = style.panels(4, 2, 3.8, sharey=True)
 
     axes[0].plot(columns["v_x"], z, color=style.CONTINUUM, label="layer means" if flow["closed_form"] else None)
     for key, label in (("without_k", "without $k$"), ("without_nonlocal", "local")):
@@ -105,7 +104,8 @@ def profiles(folder, flow):
                      label=rf"line to $H$ = {H:.1f}")
         axes[0].legend(loc="lower right")
     axes[0].set_xlabel(style.axis_label("v_x"))
-    axes[0].set_ylabel(style.axis_label("z"))
+    for place in axes[::2]:
+        place.set_ylabel(style.axis_label("z"))
 
     rate = style.positive(columns["shear_rate"])
     axes[1].semilogx(rate, z, color=style.CONTINUUM)
@@ -121,7 +121,7 @@ def profiles(folder, flow):
     axes[2].set_xlabel(r"stress  [$\rho_0 g d$]")
 
     for name, color in zip(("mu", "k"), style.OTHERS):
-        axes[3].plot(columns[name], z, color=color, label=style.axis_label(name))
+        axes[3].plot(columns[name], z, color=color, label=quantity_table.field(name).symbol())
     axes[3].set_xlim(0, 1.5)
     axes[3].set_xticks([0, 0.5, 1, 1.5])
     axes[3].legend()
@@ -130,7 +130,7 @@ def profiles(folder, flow):
     if H is not None:
         for place in axes:
             place.axhline(-H, color="grey", linewidth=0.8, linestyle=":")
-    where = ": at the centre of the drum, in its frame" if flow["geometry"] == "drum" else ": across the gap"
+    where = ":\nat the centre of the drum, in its frame" if flow["geometry"] == "drum" else ": across the gap"
     figure.suptitle(style.title_of(title(flow) + where, flow["reduced"]))
     return figure
 
@@ -140,7 +140,7 @@ def series(folder, flow):
     _, _, columns = result_files.read_table(folder / "series.csv")
     shown = [("rotation_rpm", "speed [rpm]"), ("theta_deg", r"slope $\theta$ [deg]"), ("H", "$H$  [$d$]"),
              ("shear_rate", style.axis_label("shear_rate"))]
-    figure, axes = plt.subplots(len(shown), 1, figsize=(8, 2 + 1.8 * len(shown)), sharex=True)
+    figure, axes = style.panels(len(shown), height=2.2, sharex=True)
     for place, (name, label) in zip(axes, shown):
         place.plot(columns["time_s"], columns[name], color=style.CONTINUUM)
         place.set_ylabel(label)

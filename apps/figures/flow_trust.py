@@ -5,6 +5,7 @@ import math
 import matplotlib.colors
 import matplotlib.pyplot as plt
 import matplotlib.ticker
+import numpy as np
 import result_files
 import style
 
@@ -24,12 +25,12 @@ def well_posedness(flow, header, grids, draw_map):
     top = max(0.1, float(abs(margin).max()))
     norm = matplotlib.colors.SymLogNorm(0.01, vmin=-top, vmax=top)
     if "drum_radius" in header or "outer_radius" in header:
-        figure, axes = plt.subplots(figsize=(9, 5.6))
-        draw_map(axes, grids, margin, f"{label}, red: ill-posed; {said}", norm, "RdBu", header, flow.get("surface"))
+        figure, (axes,) = style.maps(1, 1, np.ptp(grids["x"]), np.ptp(grids["z"]))
+        draw_map(axes, grids, margin, f"{label}, red: ill-posed;\n{said}", norm, "RdBu", header, flow.get("surface"))
         if (margin < 0).any():
             axes.contour(grids["x"], grids["z"], margin.filled(top), levels=[0], colors="black", linewidths=0.8)
     else:  # a strip is the same all along
-        figure, axes = plt.subplots(figsize=(5.2, 5.2))
+        figure, (axes,) = style.panels(1, height=4.6)
         axes.plot(margin[:, margin.shape[1] // 2], grids["z"], color=style.CONTINUUM)
         axes.axvline(0, color="grey", linewidth=0.8, linestyle=":")
         axes.set_xlabel(f"{label}, negative: ill-posed")
@@ -60,7 +61,7 @@ def draw_residuals(axes, rows, along, colors):
         if rows[before]["mesh"] != rows[after]["mesh"]:
             axes.axvline(0.5 * (along[before] + along[after]), color="grey", linewidth=0.8, linestyle=":")
             axes.annotate(f" mesh {rows[after]['mesh']:g}", (0.5 * (along[before] + along[after]), 1),
-                          xycoords=("data", "axes fraction"), va="top", fontsize=10, color="grey")
+                          xycoords=("data", "axes fraction"), va="top", color="grey")
 
 
 def draw_convergence(axes, rows, tolerance, over_time=False):
@@ -78,7 +79,7 @@ def newton(folder, flow):
     rows = result_files.read_rows(folder / "iterations.csv")
     if not rows:
         return None
-    figure, axes = plt.subplots(3, 1, figsize=(7.5, 11))
+    figure, axes = style.panels(3, height=3.6)
     for place, over_time in zip(axes, (False, True)):
         draw_convergence(place, rows, flow["settings"]["tolerance"], over_time)
         place.set_ylabel("residual / norm of the loads")
@@ -86,7 +87,7 @@ def newton(folder, flow):
     work = flow["phases"]
     axes[2].barh(list(work), [part["seconds"] for part in work.values()], color=style.CONTINUUM)
     for row, part in enumerate(work.values()):
-        axes[2].annotate(f" {part['seconds']:.2g} s, {part['times']} times", (part["seconds"], row), va="center", fontsize=10)
+        axes[2].annotate(f" {part['seconds']:.2g} s, {part['times']} times", (part["seconds"], row), va="center")
     axes[2].margins(x=0.55)
     axes[2].invert_yaxis()
     axes[2].grid(axis="y", visible=False)
@@ -116,7 +117,7 @@ def sensitivity(flow):
     if not settings:
         return None
     names = [name for name in flow["meshes"][-1] if name in SCALARS] + ["profile"]
-    figure, axes = plt.subplots(figsize=(9, 1.4 + 0.62 * len(names)))
+    figure, (axes,) = style.panels(1, height=1.4 + 0.62 * len(names))
     height = 0.8 / len(settings)
     known = []
     for s, (setting, color) in enumerate(zip(settings, style.COLORS)):
@@ -128,7 +129,7 @@ def sensitivity(flow):
                 continue
             known.append(abs(change))
             axes.barh(place, abs(change), height=height, color=color, left=0)
-            axes.annotate(f" {change:+.2g}" if name != "profile" else f" {change:.2g}", (abs(change), place), va="center", fontsize=10)
+            axes.annotate(f" {change:+.2g}" if name != "profile" else f" {change:.2g}", (abs(change), place), va="center")
         axes.barh(0, 0, color=color, label=setting["setting"])
     if not known:
         plt.close(figure)

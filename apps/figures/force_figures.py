@@ -2,7 +2,6 @@
 
 import math
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 import result_files
@@ -62,7 +61,7 @@ def strong_forces(axes, forces):
                       color=ZONES.get(zone, style.PARTICLES), label=rf"$e^{{-{beta:.2f} f}}$")
     axes.set_xlim(0, 8)
     axes.set_ylim(bottom=1e-4)
-    axes.set_title("Normal forces over the mean at their depth")
+    axes.set_title("Normal forces")
     axes.legend(loc="upper right")
 
 
@@ -108,10 +107,10 @@ def over_depth(axes, forces):
     for name, color, label in (("a_c", style.PARTICLES, "$a_c$"), ("a_n", style.CONTINUUM, "$a_n$"),
                                ("a_t", style.OTHERS[0], "$a_t$"), ("a_c4", style.OTHERS[1], "$a_{c4}$")):
         style.band(axes, z, layers[name], layers.get(name + "_ci99"), color, label)
-    axes.set_ylim(0, 0.8)
+    axes.set_ylim(0, 1)
     axes.set_xlabel(style.axis_label("z"))
     axes.set_title("Anisotropies by layer")
-    axes.legend(loc="upper left", ncol=2)
+    axes.legend(loc="upper left", ncols=2)
 
 
 def stress_ratio(axes, forces):
@@ -119,7 +118,7 @@ def stress_ratio(axes, forces):
     style.band(axes, z, layers["stress_ratio"], layers.get("stress_ratio_ci99"), style.PARTICLES, r"$|\tau|/p$")
     axes.plot(z, layers["stress_ratio_harmonics"], color=style.CONTINUUM, label="carried by the harmonics")
     axes.plot(z, layers["half_sum"], color="k", linestyle="--", linewidth=1, label=r"$(a_c + a_n + a_t)/2$")
-    axes.set_ylim(0, 0.6)
+    axes.set_ylim(0, 0.8)
     axes.set_xlabel(style.axis_label("z"))
     axes.set_title("Stress ratio")
     axes.legend(loc="upper left")
@@ -131,18 +130,15 @@ def main():
         return  # no contacts: nothing was measured
     forces = Forces(folder, content)
     style.use_style()
-    figure = plt.figure(figsize=(16, 12.5))
-    grid = figure.add_gridspec(3, 6)
-    strong_forces(figure.add_subplot(grid[0, 0:2]), forces)
-    weak_forces(figure.add_subplot(grid[0, 2:4]), forces)
-    friction(figure.add_subplot(grid[0, 4:6]), forces)
-    for column, quantity, name, title in ((0, "c", "contacts_of_direction", r"Contacts $E(\varphi)$"),
-                                          (2, "n", "f_n_of_direction", r"Normal force $\langle f_n\rangle(\varphi)$"),
-                                          (4, "t", "f_t_of_direction", r"Tangential force $|\langle f_t\rangle|(\varphi)$")):
-        polar(figure.add_subplot(grid[1, column:column + 2], projection="polar"), forces, name,
-              directions(forces, quantity), title)
-    over_depth(figure.add_subplot(grid[2, 0:3]), forces)
-    stress_ratio(figure.add_subplot(grid[2, 3:6]), forces)
+    figure, places = style.places([1, 2, 2, 2, 1], 3)
+    for place, draw in zip(places, (strong_forces, weak_forces, friction)):
+        draw(figure.add_subplot(place), forces)
+    for place, quantity, name, title in ((places[3], "c", "contacts_of_direction", r"Contacts $E(\varphi)$"),
+                                         (places[4], "n", "f_n_of_direction", r"Normal force $\langle f_n\rangle(\varphi)$"),
+                                         (places[5], "t", "f_t_of_direction", r"Tangential force $|\langle f_t\rangle|(\varphi)$")):
+        polar(figure.add_subplot(place, projection="polar"), forces, name, directions(forces, quantity), title)
+    for place, draw in zip(places[6:], (over_depth, stress_ratio)):
+        draw(figure.add_subplot(place), forces)
     style.save(figure, folder / "forces.png", content["reduced"])
 
 

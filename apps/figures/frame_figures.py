@@ -1,9 +1,7 @@
 """Figures of `drumlin measure --radial, --height, --width`: the profiles in a frame of one's own, with 99 % bands."""
 
 import functools
-import math
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 import quantity_table
@@ -95,13 +93,10 @@ def figure_of(file):
     known = [(label, logarithmic, [name for name in columns if name in frame.columns])
              for label, logarithmic, columns in PANELS[frame.name]]
     known = [entry for entry in known if entry[2]]
-    rows = math.ceil(len(known) / 2)
-    figure, panels = plt.subplots(rows, 2, figsize=(8.4, 3.8 * rows), squeeze=False)
-    for axes in panels.flat[len(known):]:
-        axes.remove()
-    for axes, entry in zip(panels.flat, known):
+    figure, panels = style.panels(len(known), 2, 3.4)
+    for axes, entry in zip(panels, known):
         panel(axes, frame, *entry)
-    figure.suptitle(style.title_of(f"{frame.place()}; bands: 99 %", frame.header.get("reduced") == "true"), fontsize=13)
+    figure.suptitle(style.title_of(f"{frame.place()}; bands: 99 %", frame.header.get("reduced") == "true"))
     return figure
 
 

@@ -12,7 +12,7 @@ import script
 import style
 from result_files import number_of
 
-LONG_SIDE = 8.0  # inches of the longer side of one map
+HIGHEST = 6.0  # in, of one map
 LEAST_SHARE = 1e-3  # pressures below this share of the largest are drawn as none
 NO_CELL = "#E69F00"  # grains without a cell
 
@@ -67,10 +67,11 @@ def add_pressure(figure, axes, fields, inches):
 def draw(fields, number, reduced):
     low, high = fields.limits()
     size = high - low
-    inches = LONG_SIDE / size.max()
+    beside = 1.9  # in, of labels and bar
+    inches = min((style.WIDEST - beside) / size[0], HIGHEST / size[1])
     known = "sigma_zz_contact" in fields.of  # not in an imported snapshot that does not know its contacts
     count = 2 if known else 1
-    figure, panels = plt.subplots(count, 1, figsize=(size[0] * inches + 1.9, count * size[1] * inches + 1.2), sharex=True,
+    figure, panels = plt.subplots(count, 1, figsize=(max(size[0] * inches, 1) + beside, count * size[1] * inches + 1.2), sharex=True,
                                   squeeze=False)
     panels = panels[:, 0]
     for axes in panels:
@@ -83,7 +84,7 @@ def draw(fields, number, reduced):
     if known:
         add_pressure(figure, panels[1], fields, inches)
     panels[-1].set_xlabel(r"$x$, downslope  [$d$]" if fields.radius > 0 else r"$x$  [$d$]")
-    figure.suptitle(style.title_of(f"snapshot {number}, t = {fields.time_s:.2f} s", reduced), fontsize=13)
+    figure.suptitle(style.title_of(f"snapshot {number}, t = {fields.time_s:.2f} s", reduced))
     return figure
 
 

@@ -1,6 +1,7 @@
 """Grains of a snapshot as they lie, coloured by one of their quantities; force chains; animations and series of stills."""
 
 import math
+import textwrap
 
 import h5py
 import matplotlib.collections
@@ -17,9 +18,10 @@ import style
 import whole_file
 from result_files import number_of
 
-LONG_SIDE = 8.0  # inches of the longer side of a map
-SHORT_SIDE = 2.0  # least inches of the shorter one
-DPI = 200
+BESIDE, ABOVE = 1.9, 1.1  # in, of labels, bar and title
+HIGHEST, SHORT_SIDE = 8.0, 2.0  # in, of a map
+DPI = 250
+TITLE = 60  # characters in a line of the title
 WALL = "0.15"
 GRAIN_CONTACT = style.PARTICLES
 WALL_CONTACT = style.CONTINUUM
@@ -157,7 +159,7 @@ class View:
         if window is not None:
             self.low, self.high = np.array([window[0], window[2]]), np.array([window[1], window[3]])
         size = self.high - self.low
-        self.inches = LONG_SIDE / size.max()  # per d
+        self.inches = min((style.WIDEST - BESIDE) / size[0], HIGHEST / size[1])  # per d
         self.figure_size = np.maximum(size * self.inches, SHORT_SIDE)
 
     def outside(self, grains):
@@ -166,7 +168,7 @@ class View:
         return int(np.any((places < self.low) | (places > self.high), axis=1).sum())
 
     def axes(self, drawing, what, frame):
-        figure, axes = plt.subplots(figsize=self.figure_size + [1.9, 1.1])
+        figure, axes = plt.subplots(figsize=self.figure_size + [BESIDE, ABOVE])
         axes.set_aspect("equal")
         axes.set_xlim(self.low[0], self.high[0])
         axes.set_ylim(self.low[1], self.high[1])
@@ -180,8 +182,8 @@ class View:
     def set_title(figure, drawing, what, frame, outside=0, empty=False, deep=""):
         what += f" ({outside} grains outside of the picture)" if outside else ": no grains" if empty else ""
         state = "" if drawing["status"] == "finished" else f" (run {style.plain(drawing['status'])})"
-        figure.suptitle(style.title_of(f"{style.plain(drawing['title'])}\n{what}, t = {frame['time_s']:.2f} s{state}{deep}",
-                                       drawing["reduced"]), fontsize=13)
+        words = textwrap.fill(f"{what}, t = {frame['time_s']:.2f} s{state}", TITLE)
+        figure.suptitle(style.title_of(f"{style.plain(drawing['title'], TITLE)}\n{words}{deep}", drawing["reduced"]))
 
     def set_title_of(self, figure, drawing, what, grains):
         """With the number of grains that the picture does not hold, unless a window was asked for, and with what overlaps."""

@@ -31,7 +31,7 @@ def title_of(name, one):
 
 def draw_corner(content, columns):
     unknowns, count = content["unknowns"], len(content["unknowns"])
-    figure, grid = plt.subplots(count, count, figsize=(2.9 * count + 0.8, 2.6 * count + 0.8), squeeze=False)
+    figure, grid = plt.subplots(count, count, figsize=(style.WIDEST, (style.WIDEST / count + 0.2) * count), squeeze=False)
     for i, (row, one) in enumerate(unknowns.items()):
         for j, (column, other) in enumerate(unknowns.items()):
             axes = grid[i][j]
@@ -54,25 +54,25 @@ def draw_one(axes, name, one, values):
     for end in ("low", "high"):
         axes.axvline(one[end], color=style.CONTINUUM, linewidth=1.2)
     axes.set_yticks([])
-    axes.set_title(title_of(name, one), fontsize=10)
+    axes.set_title(title_of(name, one), fontsize="medium")
 
 
 def draw_two(axes, x, y, correlation):
     step = max(1, len(x) // SHOWN)
     axes.plot(x[::step], y[::step], ".", color=style.PARTICLES, markersize=1.5, alpha=0.3, rasterized=True)
-    axes.text(0.04, 0.94, f"correlation {correlation:.2f}", transform=axes.transAxes, fontsize=9, va="top",
+    axes.text(0.04, 0.94, f"correlation {correlation:.2f}", transform=axes.transAxes, va="top",
               bbox={"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 1.5})
 
 
 def draw_data(content):
     """Each number less what is expected, over the deviation that is expected."""
     rows = content["data"]
-    figure, axes = plt.subplots(figsize=(7, 1.6 + 0.32 * len(rows)))
+    figure, (axes,) = style.panels(1, height=1.6 + 0.6 * len(rows))
     place = np.arange(len(rows))[::-1]
     axes.axvspan(-2, 2, color="0.9", zorder=0)
     axes.axvline(0, color="0.5", linewidth=1)
     axes.plot([row["off"] for row in rows], place, "o", color=style.CONTINUUM, markersize=6)
-    axes.set_yticks(place, [style.plain(f"{row['scene']}, {row['name']}: {row['value']:.4g}, expected {row['expected']:.4g}", 60) for row in rows], fontsize=9)
+    axes.set_yticks(place, [style.plain(f"{row['scene']}, {row['name']}: {row['value']:.4g}, expected {row['expected']:.4g}", 28) for row in rows])
     far = max(3.5, 1.1 * max(abs(row["off"]) for row in rows))
     fit = content["misfit"]
     axes.set(xlim=(-far, far), ylim=(-0.7, len(rows) - 0.3), xlabel="(measured - expected) / expected deviation",
@@ -82,7 +82,7 @@ def draw_data(content):
 
 
 def draw_law(law):
-    figure, axes = plt.subplots(figsize=(5.2, 3.6))
+    figure, (axes,) = style.panels(1, height=4)
     axes.fill_between(law["I"], law["low"], law["high"], color=style.PARTICLES, alpha=0.3, linewidth=0, label="90 %")
     axes.plot(law["I"], law["mu"], color=style.PARTICLES)
     axes.set(xscale="log", xlabel="I", ylabel=style.axis_label("mu"))

@@ -27,14 +27,14 @@ def between(comparison, z):
 
 
 def over_height(columns, comparison, fields):
-    """A panel per field, side by side, z upwards. None where no side has any of them."""
+    """A panel per field, z upwards. None where no side has any of them."""
     fields = [field for field in fields if field + "_particles" in columns]
     if not fields:
         return None
     z = np.asarray(columns["z"])
     whole, bulk = between(comparison, z)
-    figure, row = plt.subplots(1, len(fields), figsize=(3.2 * len(fields), 5.2), squeeze=False, sharey=True)
-    for axes, field in zip(row[0], fields):
+    figure, places = style.panels(len(fields), 2, 3.4, sharey=True)
+    for axes, field in zip(places, fields):
         for side, name in zip(COLOURS, names_of(comparison)):
             values = np.asarray(columns[f"{field}_{side}"])
             half_width = np.asarray(columns.get(f"{field}_{side}_ci99", np.full(len(z), np.nan)))
@@ -44,8 +44,9 @@ def over_height(columns, comparison, fields):
             axes.axhspan(z[whole][0] - 0.5, z[bulk][0] - 0.5, color="0.93", zorder=0)
             axes.axhspan(z[bulk][-1] + 0.5, z[whole][-1] + 0.5, color="0.93", zorder=0)
         axes.set_xlabel(style.axis_label(field))
-    row[0][0].set_ylabel(style.axis_label("z"))
-    row[0][0].legend()
+    for axes in places[::2]:
+        axes.set_ylabel(style.axis_label("z"))
+    places[0].legend()
     return figure
 
 
@@ -84,7 +85,7 @@ def picture(columns, comparison, snapshot):
     width = min(grains["period"], WIDE * comparison["registration"]["particles"]["height"])
     shown = grains["x"] < width
     scale = plt.Normalize(0, np.nanmax([np.quantile(grains["speed"], 0.99), speed[known].max()]))
-    figure, row = plt.subplots(1, 2, figsize=(11, 5.6), sharey=True)
+    figure, row = style.panels(2, 2, 4, sharey=True)
     image = style.discs(row[0], *(grains[name][shown] for name in ("x", "z", "radius", "speed")), cmap="viridis", norm=scale, linewidths=0)
     row[1].pcolormesh([0, width], np.append(z[known] - 0.5, z[known][-1] + 0.5), speed[known][:, None], cmap="viridis", norm=scale)
     for axes, name in zip(row, names_of(comparison)):

@@ -69,7 +69,7 @@ def line_of(run, value):
 
 
 def velocity(run):
-    figure, (left, right) = plt.subplots(1, 2, figsize=(12, 4.6))
+    figure, (left, right) = style.panels(2)
     depth_panel(left, run, "v_x")
     draw(left, run, "v_x", label="measured, 99 %")
     H, rate, decay = run.scalar("H"), run.scalar("shear_rate"), run.scalar("lambda")
@@ -118,7 +118,7 @@ def rotation(run):
 
 
 def stresses(run):
-    figure, axes = plt.subplots(figsize=(7.5, 5))
+    figure, (axes,) = style.panels(1, height=4.6)
     depth_panel(axes, run, "sigma_zz")
     names = {"sigma_zz": style.PARTICLES, "sigma_xx": style.OTHERS[0], "sigma_xz": style.OTHERS[1]}
     for name, color in names.items():
@@ -144,15 +144,14 @@ def over_inertia(axes, run, name):
     error = np.zeros(len(values)) if half is None else np.nan_to_num(half)
     inner, outer = shown & fitted, shown & ~fitted
     axes.errorbar(inertial[inner], values[inner], error[inner], fmt="o", color=style.PARTICLES, elinewidth=1, label="measured, 99 %")
-    axes.plot(inertial[outer], values[outer], "o", color=style.PARTICLES, fillstyle="none", label="at the surface or the wall")
+    axes.plot(inertial[outer], values[outer], "o", color=style.PARTICLES, fillstyle="none", label="at surface or wall")
     style.log_scale(axes, "x")
     axes.set_xlabel(style.axis_label("I"))
     axes.set_ylabel(style.axis_label(name))
 
 
 def rheology(run):
-    figure, panels = plt.subplots(2, 2, figsize=(12, 9))
-    left, middle, right, last = panels.flat
+    figure, (left, middle, right, last) = style.panels(4, 2, 3.4)
     depth_panel(left, run, "I")
     draw_logarithmic(left, run, "I")
     left.set_title("Inertial number")
@@ -163,6 +162,7 @@ def rheology(run):
         middle.plot(curve["I"], curve["mu"], color=FIT, zorder=5,
                     label=rf"{a:.3f} {b:+.4f} ln $I$")
     middle.set_title("Effective friction")
+    style.room_above(middle, 0.7)
     middle.legend(loc="upper left")
     over_inertia(right, run, "k")
     right.set_title("Ratio of the normal stresses")
@@ -172,7 +172,7 @@ def rheology(run):
 
 
 def fluctuations(run):
-    figure, panels = plt.subplots(1, 2, figsize=(12, 4.6))
+    figure, panels = style.panels(2)
     settings = run.content["settings"]
     for axes, name, plateau, label in ((panels[0], "dv", "dv_over_shear", r"$\delta v / \dot\gamma$  [$d$]"),
                                        (panels[1], "domega", "domega_over_shear", r"$\delta\omega / \dot\gamma$")):
@@ -192,7 +192,7 @@ def fluctuations(run):
     return figure
 
 
-GRADIENTS = ["d_sigma_zz_dz", "d_sigma_xx_dz", "d_sigma_xz_dz", "d_sigma_zz_dx", "d_sigma_xx_dx", "d_sigma_xz_dx", "d_nu_dx", "d_v_x_dx", "d_k_dx"]
+GRADIENTS = ["d_sigma_zz_dz", "d_sigma_zz_dx", "d_sigma_xx_dz", "d_sigma_xx_dx", "d_sigma_xz_dz", "d_sigma_xz_dx", "d_nu_dx", "d_v_x_dx", "d_k_dx"]
 
 
 def expected_gradients(run):
@@ -213,21 +213,21 @@ def within_packing(run, name):
 
 
 def gradients(run):
-    figure, panels = plt.subplots(3, 3, figsize=(14, 10.5))
-    for axes, name in zip(panels.flat, GRADIENTS):
+    figure, panels = style.panels(len(GRADIENTS), 2, 2.5)
+    for axes, name in zip(panels, GRADIENTS):
         depth_panel(axes, run, name)
         draw(axes, run, name, label="measured, 99 %")
         expected = expected_gradients(run).get(name)
         if expected is not None and math.isfinite(expected):
             axes.axhline(expected, color=FIT, label="if nothing varied along x")
         axes.set_ylim(*within_packing(run, name))
-    panels.flat[0].legend(loc="lower left")
+    panels[-1].legend(*panels[0].get_legend_handles_labels(), loc="center")
     return figure
 
 
 def slices(run):
     """v_x and nu in the narrow slices, from upstream to downstream."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=(12, 4.6))
+    figure, (left, right) = style.panels(2)
     colors = plt.get_cmap("viridis")
     entries = run.content["slices"]
     for i, (entry, place) in enumerate(zip(entries, style.place_labels([entry["position"] for entry in entries]))):
@@ -251,23 +251,22 @@ def steadiness(run):
     _, _, columns = result_files.read_table(run.folder / "series.csv")
     has_slope = np.isfinite(columns["theta_com_deg"][:1]).any()
     rotates = len(set(columns["turns"])) > 1
-    shown = [("kinetic_energy", "kinetic energy" + ("\nin the drum's frame" if has_slope and run.in_drum() else "") + "  [$\\rho_0 g d^3$]", style.PARTICLES)]
+    shown = [("kinetic_energy", "kinetic energy" + (" in\nthe drum's frame" if has_slope and run.in_drum() else "") + "\n[$\\rho_0 g d^3$]", style.PARTICLES)]
     if has_slope:
         shown.append(("theta_com_deg", "angle of the\ncentre of mass  [deg]", style.OTHERS[0]))
     for name, label in (("pressure", "pressure over\nthe discs  [$\\rho_0 g d$]"), ("shear_stress", "shear stress over\nthe discs  [$\\rho_0 g d$]"),
                         ("shear_rate", "mean shear rate\n[$\\sqrt{g/d}$]")):
         if np.isfinite(columns.get(name, np.nan)).any():
             shown.append((name, label, style.OTHERS[0]))
-    figure, panels = plt.subplots(len(shown), 1, figsize=(10, 0.8 + 2.6 * len(shown)), sharex=True, squeeze=False)
-    panels = list(panels.flat)
+    figure, panels = style.panels(len(shown), height=2.6, sharex=True)
     for axes, (name, label, colour) in zip(panels, shown):
         axes.plot(columns["turns" if rotates else "time"], columns[name], ".-", linewidth=0.8, color=colour)
         axes.set_ylabel(label)
     panels[0].set_ylim(bottom=0)
     panels[-1].set_xlabel("turns of the drum" if rotates else r"time  [$\sqrt{d/g}$]")
     verdict = run.content["steadiness"]
-    title = "steady" if verdict["steady"] else style.plain("not steady: " + "; ".join(verdict["reasons"]), 110, 3)
-    panels[0].set_title(style.title_of(title, run.reduced), fontsize=11 if len(title) > 60 else 13)
+    title = "steady" if verdict["steady"] else style.plain("not steady: " + "; ".join(verdict["reasons"]))
+    panels[0].set_title(style.title_of(title, run.reduced), fontsize="medium" if "\n" in title else None)
     return figure
 
 
@@ -280,16 +279,15 @@ def sensitivity(run):
             scale = abs(entry["value"])
             rows.append((name, (windows["lowest"] - entry["value"]) / scale, (windows["highest"] - entry["value"]) / scale,
                          (entry["ci99"] or 0) / scale))
-    figure, axes = plt.subplots(figsize=(10.5, 0.32 * len(rows) + 1.6))
+    figure, (axes,) = style.panels(1, height=0.32 * len(rows) + 1.6)
     for row, (name, low, high, half) in enumerate(rows):
         axes.barh(row, 2 * half, left=-half, height=0.75, color=style.PARTICLES, alpha=0.25, linewidth=0)
         axes.plot([low, high], [row, row], color=FIT, linewidth=3, solid_capstyle="butt")
         axes.plot([0], [row], "k|", markersize=9)
         if half > WIDEST_SHARE or max(abs(low), abs(high)) > WIDEST_SHARE:  # leaves the figure: its numbers stand beside it
-            axes.annotate(f" band +-{half:.2g}, line {low:+.2g} ... {high:+.2g}", (WIDEST_SHARE, row), va="center", fontsize=9,
-                          annotation_clip=False)
+            axes.annotate(f" ±{half:.2g}, {low:+.2g} … {high:+.2g}", (WIDEST_SHARE, row), va="center", annotation_clip=False)
     axes.margins(y=0.01)
-    axes.set_yticks(range(len(rows)), [name for name, *_ in rows], fontsize=10)
+    axes.set_yticks(range(len(rows)), [name for name, *_ in rows])
     axes.invert_yaxis()
     axes.set_xlim(-WIDEST_SHARE, WIDEST_SHARE)
     axes.set_xlabel("relative to the value: band = 99 % over time, line = by other windows")
@@ -315,14 +313,7 @@ def main():
     folder, content = script.measured_folder()
     run = Measured(folder, content)
     style.use_style()
-
-    def drawn(one):
-        figure = one(run)
-        if run.reduced and len(figure.axes) > 1:
-            figure.suptitle("reduced run", fontsize=13)
-        return figure
-
-    script.save_each({one.__name__: functools.partial(drawn, one) for one in figures_of(run)}, folder, run.reduced)
+    script.save_each({one.__name__: functools.partial(one, run) for one in figures_of(run)}, folder, run.reduced)
 
 
 if __name__ == "__main__":

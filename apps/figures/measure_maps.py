@@ -86,26 +86,26 @@ def log_range(values, decades):
 
 def draw_fields(axes, maps):
     speed = maps.masked(np.hypot(maps.fields["v_x"], maps.fields["v_z"]))
-    panel(axes[0, 0], maps, speed, r"speed and streamlines  [$\sqrt{gd}$]", log_range(speed, 3))
-    draw_streamlines(axes[0, 0], maps)
-    draw_gravity(axes[0, 0], maps)
+    panel(axes[0], maps, speed, r"speed and streamlines  [$\sqrt{gd}$]", log_range(speed, 3))
+    draw_streamlines(axes[0], maps)
+    draw_gravity(axes[0], maps)
     dense, contacts = ((0.45, 0.65), (1, 6)) if "v_y" in maps.fields else ((0.7, 0.86), (1.5, 4))  # of spheres, of discs
-    panel(axes[0, 1], maps, maps.field("nu"), style.axis_label("nu"), Normalize(*dense))
-    panel(axes[0, 2], maps, maps.field("coordination"), style.axis_label("coordination"), Normalize(*contacts))
+    panel(axes[1], maps, maps.field("nu"), style.axis_label("nu"), Normalize(*dense))
+    panel(axes[2], maps, maps.field("coordination"), style.axis_label("coordination"), Normalize(*contacts))
 
     with np.errstate(invalid="ignore"):
         unsure = maps.half_width("I") > WIDEST_I * maps.fields["I"]
-    panel(axes[1, 0], maps, maps.field("I"), r"$I = 2|D|/\sqrt{p}$  (grey: below its noise)", LogNorm(1e-5, 0.2), unknown=unsure)
-    panel(axes[1, 1], maps, maps.field("p"), style.axis_label("p"), Normalize(0, np.nanpercentile(maps.fields["p"], 99)))
-    panel(axes[1, 2], maps, maps.field("mu"), r"$\mu = |\tau|/p$", Normalize(0.05, 0.45))
+    panel(axes[3], maps, maps.field("I"), r"$I = 2|D|/\sqrt{p}$  (grey: noise)", LogNorm(1e-5, 0.2), unknown=unsure)
+    panel(axes[4], maps, maps.field("p"), style.axis_label("p"), Normalize(0, np.nanpercentile(maps.fields["p"], 99)))
+    panel(axes[5], maps, maps.field("mu"), r"$\mu = |\tau|/p$", Normalize(0.05, 0.45))
 
-    panel(axes[2, 0], maps, maps.field("k"), style.axis_label("k"), symmetric(0.5, 1), "RdBu_r")
+    panel(axes[6], maps, maps.field("k"), style.axis_label("k"), symmetric(0.5, 1), "RdBu_r")
     with np.errstate(invalid="ignore"):
         unsure = maps.half_width("axis_angle_deg") > WIDEST_ANGLE
-    panel(axes[2, 1], maps, maps.field("axis_angle_deg"), f"stress from strain axis [deg] (grey: $\\pm${WIDEST_ANGLE} or worse)", symmetric(30), "RdBu_r",
+    panel(axes[7], maps, maps.field("axis_angle_deg"), f"stress from strain axis  [deg]\n(grey: $\\pm${WIDEST_ANGLE} or worse)", symmetric(30), "RdBu_r",
           unknown=unsure)
     missing = 100 * np.hypot(maps.fields["residual_x"], maps.fields["residual_z"])
-    panel(axes[2, 2], maps, maps.masked(missing), r"momentum missing  [% of $\nu g$]", LogNorm(0.1, 30), "magma_r")
+    panel(axes[8], maps, maps.masked(missing), r"momentum missing  [% of $\nu g$]", LogNorm(0.1, 30), "magma_r")
 
 
 def draw_streamlines(axes, maps):
@@ -126,12 +126,14 @@ def main():
     style.use_style()
     if not maps.number("drum_radius") > 0:  # panels may be narrower than their titles
         plt.rcParams["savefig.bbox"] = "tight"
-    figure, axes = plt.subplots(3, 3, figsize=(16, 10.5), sharex=True, sharey=True)
+    wide, high = (2.04, 1.32) if maps.number("drum_radius") > 0 else (np.ptp(maps.x), np.ptp(maps.z))
+    figure, axes = style.maps(9, 2, wide, high, sharex=True, sharey=True)
     draw_fields(axes, maps)
     sloping = maps.number("drum_radius") > 0 or abs(maps.number("theta_deg")) > 0
-    for one in axes[-1]:
+    for one in axes[7:9]:
+        one.tick_params(labelbottom=True)
         one.set_xlabel(r"$x$  [$d$]" + (", downslope" if sloping else ""))
-    for one in axes[:, 0]:
+    for one in axes[0:9:2]:
         one.set_ylabel(style.axis_label("z"))
     style.save(figure, folder / "maps.png", content["reduced"])
 

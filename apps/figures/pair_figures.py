@@ -47,8 +47,8 @@ def extent(sides):
 def panels(sides, rows, columns):
     """Axes to scale, one place of the plane in all of them."""
     x0, x1, z0, z1 = extent(sides)
-    wide = 10.5 / columns
-    figure, axes = plt.subplots(rows, columns, figsize=(11, max(1.3, wide * (z1 - z0) / (x1 - x0) + 0.55) * rows), squeeze=False, sharex=True, sharey=True)
+    figure, axes = style.maps(rows * columns, columns, x1 - x0, z1 - z0, sharex=True, sharey=True)
+    axes = np.array(axes).reshape(rows, columns)
     for each in axes.flat:
         each.set(xlim=(x0, x1), ylim=(z0, z1), aspect="equal")
         each.grid(False)
@@ -63,15 +63,15 @@ def heights(sides):
     x, each = particles.frames.x, np.nan_to_num(particles.frames.height - particles.floor).clip(0)
     half = measures.interval(each)[1]
     chosen = shown_times(particles, 6)
-    figure, axes = plt.subplots(len(chosen), 1, figsize=(9, 1.7 * len(chosen)), squeeze=False, sharex=True, sharey=True)
-    for row, t in zip(axes[:, 0], chosen):
+    figure, axes = style.panels(len(chosen), height=1.7, sharex=True, sharey=True)
+    for row, t in zip(axes, chosen):
         for side, colour, label, band in ((particles, style.PARTICLES, "particles", half[t]), (continuum, style.CONTINUUM, "continuum", None)):
             style.band(row, x, np.where(side.h[t] > 0, side.h[t], np.nan), band, colour, label, marker="")
-        row.set_title(rf"$t$ = {particles.frames.times[t]:.3g} $\sqrt{{d/g}}$", loc="right", fontsize=11)
+        row.set_title(rf"$t$ = {particles.frames.times[t]:.3g} $\sqrt{{d/g}}$", loc="right")
         row.set_ylabel("$h$  [$d$]")
-    axes[0, 0].legend(loc="upper right")
-    axes[-1, 0].set_xlabel("$x$  [$d$]")
-    axes[-1, 0].set_xlim(extent(sides)[:2])
+    axes[0].legend(loc="upper right")
+    axes[-1].set_xlabel("$x$  [$d$]")
+    axes[-1].set_xlim(extent(sides)[:2])
     return figure
 
 
@@ -85,7 +85,7 @@ def maps(sides):
         for cell, side, value, name in zip(row, sides, values, ("particles", "continuum")):
             image = cell.pcolormesh(side.frames.x, side.frames.z, value, shading="nearest", cmap="viridis", vmin=0, vmax=top, rasterized=True)
             cell.plot(side.frames.x, np.where(side.h[t] > 0, side.h[t] + side.floor, np.nan), color="0.3", linewidth=0.8)
-            cell.set_title(f"{name}, $t$ = {side.frames.times[t]:.3g}", fontsize=11)
+            cell.set_title(f"{name}, $t$ = {side.frames.times[t]:.3g}")
         figure.colorbar(image, ax=row, label=r"speed  [$\sqrt{gd}$]")
     return figure
 
@@ -102,7 +102,7 @@ def differences(sides):
             grid = sides[0].frames
             cell.pcolormesh(grid.x, grid.z, np.where(one, 0.7, np.nan), shading="nearest", cmap="gray", vmin=0, vmax=1, rasterized=True)
             image = cell.pcolormesh(grid.x, grid.z, b - a, shading="nearest", cmap="RdBu_r", vmin=-largest, vmax=largest, rasterized=True)
-            cell.set_title(f"$t$ = {grid.times[t]:.3g}", fontsize=11)
+            cell.set_title(f"$t$ = {grid.times[t]:.3g}")
             figure.colorbar(image, ax=cell, label=label)
     return figure
 
@@ -127,12 +127,12 @@ def series(content):
         component = "xz".index(load["component"])
         across = {side: [at[component] for at in load[side]] for side in ("particles", "ci99", "continuum")}
         drawn.append((f"load on {style.plain(name)}  [$\\rho_0gd^2$]", entry(across)))
-    figure, axes = plt.subplots(-(-(len(drawn) + 1) // 3), 3, figsize=(13, 3 * -(-(len(drawn) + 1) // 3)), squeeze=False)
-    for cell, (label, (mean, half, other)) in zip(axes.flat, drawn):
+    figure, axes = style.panels(len(drawn) + 1, 2, 3)
+    for cell, (label, (mean, half, other)) in zip(axes, drawn):
         style.band(cell, times, mean, np.nan_to_num(half), style.PARTICLES, "particles", marker="")
         cell.plot(times, other, color=style.CONTINUUM, label="continuum")
         cell.set(xlabel=r"$t$  [$\sqrt{d/g}$]", ylabel=label)
-    last = axes.flat[len(drawn)]
+    last = axes[len(drawn)]
     for error, label, colour in ((content["heights"]["rms"], "$h$, rms over $H_0$", style.OTHERS[0]),
                                  (content["errors"]["v"]["flowing"], "$v$, where it flows", style.OTHERS[1])):
         last.plot(times, numbers(error["value"]), color=colour, label=label)
@@ -141,9 +141,7 @@ def series(content):
     last.set(xlabel=r"$t$  [$\sqrt{d/g}$]", ylabel="error (dotted: noise floor)")
     style.log_scale(last, "y")
     last.legend()
-    axes.flat[0].legend()
-    for cell in axes.flat[len(drawn) + 1:]:
-        cell.set_visible(False)
+    axes[0].legend()
     return figure
 
 

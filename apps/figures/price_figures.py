@@ -9,7 +9,6 @@ import math
 import pathlib
 import sys
 
-import matplotlib.pyplot as plt
 from matplotlib.colors import TwoSlopeNorm
 
 import script
@@ -49,7 +48,7 @@ def draw_panel(axes, key, title, base, rows):
             axes.plot([length + 0.04 * side * longest], [place], marker=">" if side > 0 else "<", color=colors[place], markersize=8, clip_on=False)
         axes.annotate(f"{change:+.3g}" if abs(change) < 1000 else f"{change:+.0e}", (length, place),
                       xytext=((12 if beyond else 4) * side, 0), textcoords="offset points", va="center",
-                      ha="left" if side > 0 else "right", fontsize=9)
+                      ha="left" if side > 0 else "right")
     axes.axvline(0, color="0.3", linewidth=1)
     axes.set_xlim(-1.7 * longest, 1.7 * longest)
     axes.set_xticks([-longest, 0, longest])
@@ -62,13 +61,13 @@ def of_particles(report):
     """Changes relative to the scene as it is, with and without each effect."""
     priced = [row for row in report["variants"] if "cpu_seconds" in row]
     base, rows = priced[0], priced[1:][::-1]
-    figure, all_axes = plt.subplots(2, 2, sharey=True, figsize=(7.5, 2.4 + 0.8 * len(rows)))
-    for axes, (key, title) in zip(all_axes.flat, PANELS):
+    figure, places = style.panels(len(PANELS), 2, 1.2 + 0.4 * len(rows), sharey=True)
+    for axes, (key, title) in zip(places, PANELS):
         draw_panel(axes, key, title, base, rows)
-    all_axes[0, 0].set_yticks(range(len(rows)), [label(row) for row in rows])
+    places[0].set_yticks(range(len(rows)), [label(row) for row in rows])
     figure.suptitle(style.title_of(f"{style.plain(report['title'])}, first {report['simulated_seconds']:g} s\n"
                                    "without (-) and with (+) an effect, against the scene as it is",
-                                   report["reduced"]), fontsize=13)
+                                   report["reduced"]))
     return figure
 
 
@@ -81,8 +80,8 @@ def of_flow(report):
     base = next(row for row in rows if row["effect"] == "none")
     scalars = [name for name in base["scalars"] if name in NAMES and base["scalars"][name] and name != "Q"]
     panels = ["cpu_seconds"] + scalars + ["v_x"]
-    figure, all_axes = plt.subplots(1, len(panels), sharey=True, figsize=(2.1 * len(panels) + 2, 1.8 + 0.42 * len(rows)))
-    for axes, panel in zip(all_axes, panels):
+    figure, places = style.panels(len(panels), 2, 1.2 + 0.36 * len(rows), sharey=True)
+    for axes, panel in zip(places, panels):
         if panel == "cpu_seconds":
             values, title, unit = [row["cpu_seconds"] for row in rows], "processor time", "s"
         elif panel == "v_x":
@@ -94,17 +93,17 @@ def of_flow(report):
         axes.barh(range(len(rows)), [0 if math.isnan(value) else value for value in values], color=colors)
         for place, value in enumerate(values):
             if math.isnan(value):
-                axes.annotate(" other layers", (0, place), va="center", fontsize=10, color="grey")
+                axes.annotate(" other layers", (0, place), va="center", color="grey")
                 continue
             text = f" {value:.3g} " if panel in ("cpu_seconds", "v_x") else f" {value:+.2g} "
-            axes.annotate(text, (value, place), va="center", ha="left" if value >= 0 else "right", fontsize=10)
+            axes.annotate(text, (value, place), va="center", ha="left" if value >= 0 else "right")
         axes.margins(x=0.45)
         axes.axvline(0, color="0.3", linewidth=1)
         axes.set_title(title)
         axes.set_xlabel(unit)
         axes.grid(axis="y", visible=False)
-    all_axes[0].set_yticks(range(len(rows)), [row["effect"].replace("_", " ") for row in rows])
-    figure.suptitle(style.title_of(f"{style.plain(report['title'])}: each effect alone", report["reduced"]), fontsize=13)
+    places[0].set_yticks(range(len(rows)), [row["effect"].replace("_", " ") for row in rows])
+    figure.suptitle(style.title_of(f"{style.plain(report['title'])}: each effect alone", report["reduced"]))
     return figure
 
 
@@ -126,21 +125,21 @@ def errors(report):
     rows = rows_of(report)
     known = [i for i, target in enumerate(rows[0]["targets"]) if target["quantity"] != "Q" and all(row["targets"][i]["value"] is not None for row in rows)]
     ratios = [[row["targets"][i]["value"] / row["targets"][i]["limit"] for i in known] for row in rows]
-    figure, (axes, bars) = plt.subplots(1, 2, figsize=(9.5, 2.2 + 0.42 * len(rows)), width_ratios=[5, 1], sharey=True)
+    figure, (axes, bars) = style.panels(2, 2, 2.2 + 0.42 * len(rows), width_ratios=[5, 1], sharey=True)
     axes.imshow([[min(ratio, 2) for ratio in line] for line in ratios], cmap="RdYlGn_r", norm=TwoSlopeNorm(1, 0, 2), aspect="auto", alpha=0.75)
     for y, line in enumerate(ratios):
         for x, ratio in enumerate(line):
-            axes.text(x, y, f"{ratio:.1f}", ha="center", va="center", fontsize=11, weight="bold" if ratio > 1 else "normal")
+            axes.text(x, y, f"{ratio:.1f}", ha="center", va="center", weight="bold" if ratio > 1 else "normal")
     axes.set_xticks(range(len(known)), [name_of(rows[0]["targets"][i]).replace("\n", ", ") for i in known], rotation=60, ha="right", rotation_mode="anchor")
     axes.set_yticks(range(len(rows)), [row["name"] for row in rows])
     axes.grid(False)
-    axes.set_title("error / limit against the particles; bold: missed", fontsize=12)
+    axes.set_title("error / limit; bold: missed")
     seconds = [row["cpu_seconds"] for row in rows]
     bars.barh(range(len(rows)), seconds, color=style.CONTINUUM, height=0.6)
     for y, value in enumerate(seconds):
-        bars.text(value, y, f" {value:.0f}", va="center", fontsize=10.5)
+        bars.text(value, y, f" {value:.0f}", va="center")
     bars.set_xlim(0, 1.2 * max(seconds))
-    bars.set_title("seconds", fontsize=12)
+    bars.set_title("seconds")
     return figure
 
 

@@ -6,7 +6,6 @@ usage: region_figures.py FLOWRUN
 import pathlib
 import sys
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 import script
@@ -25,18 +24,14 @@ def speeds(frames):
     x0, x1, z0, z1 = frames.x[columns[0]], frames.x[columns[-1]], frames.z[rows[0]], frames.z[rows[-1]]
     chosen = np.unique(np.linspace(0, len(frames.times) - 1, min(6, len(frames.times))).round().astype(int))
     across = 1 if x1 - x0 > 3 * (z1 - z0) else min(3, len(chosen))
-    down = -(-len(chosen) // across)
-    figure, axes = plt.subplots(down, across, figsize=(11, max(1.4, 10.5 / across * (z1 - z0) / (x1 - x0) + 0.6) * down), squeeze=False, sharex=True,
-                                sharey=True)
+    figure, axes = style.maps(len(chosen), across, x1 - x0, z1 - z0, sharex=True, sharey=True)
     top = max(np.nanmax(speed), 1e-9)
-    for axis, t in zip(axes.flat, chosen):
+    for axis, t in zip(axes, chosen):
         shown = axis.pcolormesh(frames.x, frames.z, speed[t], vmin=0, vmax=top, shading="nearest")
         axis.plot(frames.x, frames.height[0, t], color="black", lw=0.8)
         axis.set(xlim=(x0 - 1, x1 + 1), ylim=(z0 - 1, z1 + 1), aspect="equal")
-        axis.set_title(rf"$t$ = {frames.times[t]:.3g} $\sqrt{{d/g}}$", fontsize=10)
+        axis.set_title(rf"$t$ = {frames.times[t]:.3g} $\sqrt{{d/g}}$")
         axis.grid(False)
-    for axis in axes.flat[len(chosen):]:
-        axis.set_visible(False)
     figure.colorbar(shown, ax=axes, label=r"speed  [$\sqrt{gd}$]", shrink=0.7)
     return figure
 
@@ -44,17 +39,18 @@ def speeds(frames):
 def series(folder):
     steps = np.genfromtxt(folder / "series.csv", delimiter=",", names=True, comments="#", skip_header=1)
     shown = [(name, label) for name, label in SERIES if np.any(steps[name])]
-    figure, axes = plt.subplots(len(shown), 1, figsize=(8, 1.9 * len(shown)), squeeze=False, sharex=True)
-    for axis, (name, label) in zip(axes[:, 0], shown):
+    figure, axes = style.panels(len(shown), height=2.4, sharex=True)
+    for axis, (name, label) in zip(axes, shown):
         axis.plot(steps["time"], steps[name], color=style.CONTINUUM)
-        axis.set_ylabel(label, fontsize=9)
-    axes[-1, 0].set_xlabel(r"$t$  [$\sqrt{d/g}$]")
+        axis.set_ylabel(label)
+    axes[-1].set_xlabel(r"$t$  [$\sqrt{d/g}$]")
     return figure
 
 
 def main():
     folder = pathlib.Path(sys.argv[1])
     frames = read_frames(folder / "frames.h5")
+    style.use_style()
     script.save_each({"frames": lambda: speeds(frames), "series": lambda: series(folder)}, folder, frames.header.get("reduced") == "true")
 
 

@@ -18,7 +18,7 @@ def mark_stages(axes, stages, end):
             if begin > 0:
                 axes.axvline(begin, color="0.5", linewidth=0.8, linestyle=":")
             axes.annotate(style.plain(stage["name"], 30, 1), ((begin + min(stage["end_s"], end)) / 2, 1.0), ha="center", va="bottom",
-                          xycoords=("data", "axes fraction"), color="0.35", fontsize=10)
+                          xycoords=("data", "axes fraction"), color="0.35")
         begin = stage["end_s"]
 
 
@@ -62,7 +62,7 @@ def draw_log(drawing, path):
     if not log or not len(log["time_s"]):
         return False
     time, blue, orange = log["time_s"], style.PARTICLES, style.CONTINUUM
-    figure, panels = plt.subplots(6, 1, figsize=(10, 12), sharex=True)
+    figure, panels = style.panels(6, height=2.1, sharex=True)
     log_panel(panels[0], time, [("largest", log["residual_max"], orange), ("rms", log["residual"], blue)], "residual")
     threshold(panels[0], drawing["tolerance"], "tolerance of rms")
     log_panel(panels[1], time, [("largest", log["penetration"], blue)], "penetration\nper step  [$d$]")
@@ -81,7 +81,7 @@ def draw_log(drawing, path):
     for axes in panels[1:]:
         mark_stages(axes, [dict(stage, name="") for stage in drawing["stages"]], time[-1])
     figure.align_ylabels(panels)
-    figure.suptitle(title(drawing, f"accuracy and state; {100 * missed:.0f} % of the logged steps missed a tolerance"))
+    figure.suptitle(title(drawing, f"accuracy and state; {100 * missed:.0f} % of the steps missed a tolerance"))
     style.save(figure, path, drawing["reduced"])
     return True
 
@@ -94,14 +94,14 @@ def draw_energy(drawing, path):
               if name not in ("step", "stage") and isinstance(values, np.ndarray)}
     if time is None or not len(time) or not curves:
         return False
-    figure, axes = plt.subplots(figsize=(10, 6))
+    figure, (axes,) = style.panels(1, height=5)
     colours = style.COLORS + ["0.4", style.PAPER]
     for k, (name, values) in enumerate(curves.items()):
         axes.plot(time, values, label=name.replace("_", " "), color=colours[k % len(colours)], linewidth=1.3,
                   linestyle=["-", "--", ":"][k // len(colours) % 3])
     axes.set_xlabel("time  [s]")
     axes.set_ylabel(r"energy, work  [$\rho_0 g d^3$]")
-    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2)
     mark_stages(axes, drawing["stages"], time[-1])
     closes = "" if error is None else f"; it closes to {np.nanmax(np.abs(error)):.1g}"
     figure.suptitle(title(drawing, "energy ledger: changes since the start" + closes))
@@ -120,17 +120,17 @@ def draw_time(drawing, path):
     if rest > 0.001 * run["wall_seconds"]:
         parts["everything else"] = rest
     parts = dict(sorted(parts.items(), key=lambda part: part[1]))
-    figure, axes = plt.subplots(figsize=(9, 1.6 + 0.55 * len(parts)))
+    figure, (axes,) = style.panels(1, height=1.6 + 0.55 * len(parts))
     bars = axes.barh(list(parts), list(parts.values()), color=style.PARTICLES, height=0.65)
     for bar, value in zip(bars, parts.values()):
         share, step = 100 * value / run["wall_seconds"], 1e3 * value / run["steps"]
         axes.annotate(f"{value:.3g} s, {share:.1f} %, {step:.2g} ms per step",
                       (bar.get_width(), bar.get_y() + bar.get_height() / 2), xytext=(6, 0), va="center",
-                      textcoords="offset points", fontsize=11)
-    axes.set_xlim(0, 1.6 * max(parts.values()) or 1)
+                      textcoords="offset points")
+    axes.set_xlim(0, 2.3 * max(parts.values()) or 1)
     axes.grid(axis="y", visible=False)
     axes.set_xlabel("wall time  [s]")
-    figure.suptitle(title(drawing, f"where the time went: {run['wall_seconds']:.3g} s, {run['steps']} steps, "
+    figure.suptitle(title(drawing, f"where the time went: {run['wall_seconds']:.3g} s, {run['steps']} steps,\n"
                                    f"{run['grains']} grains, threads: {run['threads']}"))
     style.save(figure, path, drawing["reduced"])
     return True
@@ -138,7 +138,7 @@ def draw_time(drawing, path):
 
 def draw(drawing, folder):
     """Returns {file: what it shows}; what there is no data for is not drawn."""
-    plt.rcParams.update({"savefig.dpi": 130, "savefig.bbox": "tight"})
+    plt.rcParams.update({"savefig.dpi": 130, "savefig.bbox": None})
     figures = {}
     if draw_log(drawing, folder / "log.png"):
         figures["log.png"] = "residual, penetration, overlap, kinetic energy, sweeps and contacts over time"

@@ -69,7 +69,7 @@ def draw_depth_laws(axes, study):
         if math.isfinite(c):
             axes.plot(Q, [c * math.sqrt(q) for q in Q], line, color=color, linewidth=1, zorder=0, label=rf"{side}: ${c:.2f}\sqrt{{Q}}$")
     handles = [line for line in axes.get_lines() if "sqrt" in str(line.get_label())]
-    axes.legend(handles=handles, loc="lower right", fontsize=10)
+    axes.legend(handles=handles, loc="lower right")
 
 
 def draw_slope_laws(axes, study):
@@ -88,21 +88,21 @@ def draw_slope_laws(axes, study):
 
 
 def speeds(study):
-    figure, axes = plt.subplots(1, 3, figsize=(14, 4.9))
+    figure, axes = style.panels(3, height=3.6)
     draw_sides(axes[0], study, "theta_deg", "rotation_rpm")
     draw_slope_laws(axes[0], study)
     draw_sides(axes[1], study, "H", "Q")
     draw_depth_laws(axes[1], study)
     draw_sides(axes[2], study, "lambda", "Q")
-    axes[0].legend(fontsize=10)
+    axes[0].legend()
     return figure
 
 
 def rates(study):
-    figure, axes = plt.subplots(1, 2, figsize=(10, 4.9))
+    figure, axes = style.panels(2)
     draw_sides(axes[0], study, "shear_rate", "Q")
     draw_sides(axes[1], study, "I_th", "Q")
-    axes[0].legend(fontsize=10)
+    axes[0].legend()
     return figure
 
 
@@ -122,7 +122,7 @@ def errors(study):
     """One row per target, one mark per speed, over what judges it; a bar where that is not the limit stands at the limit."""
     compared = [speed for speed in study.speeds if any(target["value"] is not None for target in speed["targets"])]
     names = [name_of(target) for target in compared[0]["targets"] if target["value"] is not None] if compared else []
-    figure, axes = plt.subplots(figsize=(9, 1.9 + 0.42 * len(names)))
+    figure, (axes,) = style.panels(1, height=3.6 + 0.42 * len(names))
     largest = 1
     marks = "osD^vP*X<>"
     for i, speed in enumerate(compared):
@@ -149,9 +149,9 @@ def errors(study):
     axes.set_xlim(0.015, max(5, 1.5 * largest))
     axes.set_yticks(range(len(names)), names)
     axes.invert_yaxis()
-    axes.set_xlabel("error / what judges it: limit, or noise floor where that is larger")
-    axes.set_title("Continuum against particles: met left of the line, missed right of it", fontsize=11)
-    axes.legend(loc="center left", bbox_to_anchor=(1, 0.5))
+    axes.set_xlabel("error / what judges it: limit, or larger noise floor")
+    axes.set_title("Continuum against particles: met left of the line, missed right")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.3, -0.15), ncols=2)
     return figure
 
 

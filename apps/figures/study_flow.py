@@ -20,7 +20,7 @@ def snapshot(study):
         return None
     R = float(run.header["drum_radius"])
     grains = read_grains(files[-1], float(run.header["theta_deg"]), float(run.header["axis_depth"]))
-    figure, axes = plt.subplots(figsize=(9, 5.4))
+    figure, (axes,) = style.panels(1, height=4.2)
     discs = style.discs(axes, *(grains[name] for name in ("x", "z", "radius", "speed")), cmap="viridis", linewidths=0)
     center = float(run.header["axis_depth"])
     axes.add_patch(plt.Circle((0, center), R, fill=False, color="0.2", linewidth=1.5))
@@ -41,7 +41,7 @@ def snapshot(study):
 
 def volume_fraction(study):
     run = study.main_run()
-    figure, axes = plt.subplots(figsize=(7.5, 5))
+    figure, (axes,) = style.panels(1, height=4.6)
     depth_panel(axes, run, style.axis_label("nu"))
     draw(axes, run, "nu")
     axes.axhline(0.7, color="0.6", linestyle="--", linewidth=1)
@@ -55,7 +55,6 @@ def volume_fraction(study):
         inset.set_ylim(bulk["value"] - 0.05, bulk["value"] + 0.03)
     inset.set_xlim(run.wall + WALL_MARGIN, 0.5)
     inset.set_xlabel("")
-    inset.tick_params(labelsize=9)
     return (figure, f"Fig. 2: volume fraction, {label_of(run)}",
             "0.82 in the bulk, a slight decrease in the flowing layer; drops to zero over 3 to 4 d at the surface, over 2 to "
             "3 d at the drum.",
@@ -66,7 +65,7 @@ def volume_fraction(study):
 
 def velocity(study):
     run = study.main_run()
-    figure, (left, right) = plt.subplots(1, 2, figsize=(13, 5))
+    figure, (left, right) = style.panels(2, height=4.4)
     H, rate, decay = (run.scalar(name) for name in ("H", "shear_rate", "lambda"))
     depth_panel(left, run, style.axis_label("v_x"), lowest_shown([run], -45))
     draw(left, run, "v_x")
@@ -94,9 +93,8 @@ def velocity(study):
             amplitude = math.exp(run.content["fits"]["decay_log_rate"])
             factor = 1 if name == "shear_rate" else decay
             inset.plot(z, [factor * amplitude * math.exp(at / decay) for at in z], color=FIT, linewidth=2.5, zorder=5)
-            inset.text(0.05, 0.86, rf"$\lambda$ = {decay:.2f} $d$", transform=inset.transAxes, fontsize=10, color=FIT)
+            inset.text(0.05, 0.86, rf"$\lambda$ = {decay:.2f} $d$", transform=inset.transAxes, color=FIT)
         inset.set_xlim(run.wall, 4)
-        inset.tick_params(labelsize=9)
     return (figure, f"Fig. 3: velocity and shear rate, {label_of(run)}",
             "a linear flowing layer with a shear rate of about 0.15 and H = 14.6, an exponential tail with lambda = 3.4.",
             f"shear rate {shown(study.at_main_speed('shear_rate'))}, H {shown(study.at_main_speed('H'))}, lambda "
@@ -109,7 +107,7 @@ def velocity_along_x(study):
     run = study.main_run()
     if len(run.slices) < 2:
         return None
-    figure, (left, right) = plt.subplots(1, 2, figsize=(13, 5))
+    figure, (left, right) = style.panels(2, height=4.4)
     colors = plt.get_cmap("coolwarm")
     entries = {entry["position"]: entry for entry in run.content.get("slices", [])}
     for n, (columns, place) in enumerate(zip(run.slices.values(), style.place_labels(list(run.slices)))):
@@ -135,7 +133,7 @@ def velocity_along_x(study):
 
 
 def velocity_over_speed(study):
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(17, 5))
+    figure, (left, middle, right) = style.panels(3, height=4)
     for run in study.first_runs():
         draw(left, run, "v_x", color_of(study, run.rpm), label_of(run), marker=marker_of(run.rpm))
     style.depth_axes(left, math.nan, style.axis_label("v_x"), "-.")
@@ -155,7 +153,7 @@ def velocity_over_speed(study):
         right.plot(study.paper_column("Q"), [paper_shear_rate(study, row["theta_deg"]) for row in study.table], color="k",
                    linestyle="--", linewidth=1.2, label="paper's law at its own slopes")
         right.legend(loc="upper left")
-    inset = right.inset_axes([0.56, 0.13, 0.42, 0.38])
+    inset = right.inset_axes([0.56, 0.26, 0.42, 0.28])
     scaling_inset(inset, study)
     c = study.law("shear_rate_com", "c")
     return (figure, "Fig. 5: velocity profiles of all speeds, decay length and shear rate over Q",
@@ -191,15 +189,14 @@ def scaling_inset(axes, study):
     offset, slope = (study.law("shear_rate_with_offset_com", name)["value"] for name in ("g0", "c"))
     axes.plot(x, [c * at for at in x], color=FIT, linewidth=1.4)
     axes.plot(x, [offset + slope * at for at in x], color=FIT, linewidth=1, linestyle="--")
-    axes.set_xlabel(r"$\sqrt{(\sin\theta-\sin\Phi)/\cos\Phi}$", fontsize=10)
-    axes.set_ylabel(r"$\dot\gamma$", fontsize=10)
-    axes.tick_params(labelsize=9)
+    axes.set_xlabel(r"$\sqrt{(\sin\theta-\sin\Phi)/\cos\Phi}$")
+    axes.set_ylabel(r"$\dot\gamma$")
     axes.set_xlim(0, None)
     axes.set_ylim(0, None)
 
 
 def depth_and_friction(study):
-    figure, (left, right) = plt.subplots(1, 2, figsize=(13, 5))
+    figure, (left, right) = style.panels(2, height=4.4)
     over_flow_rate(left, study, "H", r"$H$  [$d$]", scale=True)
     Q, _ = study.speed_values("Q")
     Q = [0 if math.isnan(q) or q < 0 else q for q in Q]
@@ -214,7 +211,7 @@ def depth_and_friction(study):
         left.plot(study.paper_column("Q"), study.paper_column("H"), label="paper", **PAPER)
     left.set_ylim(0, None)
     left.legend(loc="upper left")
-    inset = left.inset_axes([0.6, 0.11, 0.38, 0.36])
+    inset = left.inset_axes([0.62, 0.21, 0.36, 0.28])
     H, half = study.speed_values("H")
     for speed, q, h, dh in zip(study.speeds, Q, H, half):
         rpm = speed["rotation_rpm"]
@@ -222,9 +219,8 @@ def depth_and_friction(study):
     inset.plot([0, math.sqrt(grid[-1])], [0, c["value"] * math.sqrt(grid[-1])], color=FIT, linewidth=1.4)
     if study.is_papers:
         inset.plot([math.sqrt(q) for q in study.paper_column("Q")], study.paper_column("H"), **(PAPER | {"markersize": 5}))
-    inset.set_xlabel(r"$\sqrt{Q}$", fontsize=10)
-    inset.set_ylabel(r"$H$", fontsize=10)
-    inset.tick_params(labelsize=9)
+    inset.set_xlabel(r"$\sqrt{Q}$")
+    inset.set_ylabel(r"$H$")
 
     over_flow_rate(right, study, "mu_eff", r"$\mu_{\mathrm{eff}} = \tan\theta$", scale=True)
     c0, c1 = study.law("effective_friction", "c0"), study.law("effective_friction", "c1")
@@ -252,23 +248,21 @@ def spin(study):
     run = study.main_run()
     if not run.has("omega"):
         return None
-    figure, axes = plt.subplots(figsize=(8, 5.2))
+    figure, (axes, over_vorticity) = style.panels(2, height=3.8)
     depth_panel(axes, run, style.axis_label("omega"), lowest_shown([run], -50))
     draw(axes, run, "omega", label="mean spin")
     axes.plot(run.z, run.columns["shear_rate"] / 2, color=FIT, label=r"$\frac{1}{2}\,dv_x/dz$")
     axes.set_ylim(-0.01, 1.35 * limits_of(run, "omega", run.z < 0)[1])
-    axes.legend(loc="upper left", bbox_to_anchor=(0.03, 0.36))
-    inset = axes.inset_axes([0.1, 0.5, 0.4, 0.47])
+    axes.legend(loc="upper left")
     for one in study.first_runs():
         rows = one.off_ends(1)
-        inset.plot(one.columns["shear_rate"][rows], one.columns["omega"][rows], marker_of(one.rpm), color=color_of(study, one.rpm), markersize=3)
-    largest = inset.get_xlim()[1]
-    inset.plot([0, largest], [0, largest / 2], color="k", linewidth=1)
-    inset.set_xlabel(r"$dv_x/dz$", fontsize=10)
-    inset.set_ylabel(r"$\omega$", fontsize=10)
-    inset.tick_params(labelsize=9)
-    speed_legend(inset, study, loc="upper left", fontsize=7, handletextpad=0.1, labelspacing=0.2, borderpad=0)
-    return (figure, f"Fig. 7: mean spin, {label_of(run)}; inset: over the vorticity, all speeds",
+        over_vorticity.plot(one.columns["shear_rate"][rows], one.columns["omega"][rows], marker_of(one.rpm), color=color_of(study, one.rpm), markersize=3)
+    largest = over_vorticity.get_xlim()[1]
+    over_vorticity.plot([0, largest], [0, largest / 2], color="k", linewidth=1)
+    over_vorticity.set_xlabel(r"$dv_x/dz$  [$\sqrt{g/d}$]")
+    over_vorticity.set_ylabel(style.axis_label("omega"))
+    speed_legend(over_vorticity, study, loc="upper left")
+    return (figure, f"Fig. 7: mean spin, {label_of(run)}; below: over the vorticity, all speeds",
             "omega = 1/2 dv_x/dz in the whole packing, at every Q.",
             f"omega over half of dv_x/dz is {shown(study.mean('spin_over_half_vorticity'))} in the flowing layer over all speeds "
             f"(it changes by {shown(study.trend('spin_over_half_vorticity'), 2)} over Q) and "

@@ -2,7 +2,6 @@
 
 import math
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 import style
@@ -13,7 +12,7 @@ from study_runs import color_of, label_of, shown
 
 def inertial_number(study):
     run = study.main_run()
-    figure, (left, right) = plt.subplots(1, 2, figsize=(13, 5))
+    figure, (left, right) = style.panels(2, height=3.8)
     depth_panel(left, run, style.axis_label("I"))
     draw_logarithmic(left, run, "I", size=4)
     over_flow_rate(right, study, "I_th", r"$I_{\mathrm{th}}$", scale=True)
@@ -31,9 +30,9 @@ def inertial_number(study):
             f"I_th = {shown(mean)} in the mean of all speeds; over Q it changes by {shown(study.trend('I_th'), 2)} of itself.")
 
 
-def ratio_panels(study, figure, run, name):
-    """The main speed on a linear axis of I; beside it what the paper shows in an inset: all speeds, logarithmic."""
-    linear, logarithmic = figure.subplots(1, 2)
+def ratio_panels(study, panels, run, name):
+    """The main speed on a linear axis of I; below it what the paper shows in an inset: all speeds, logarithmic."""
+    linear, logarithmic = panels
     over_inertia(linear, run, run.columns[name], run.half_width(name), style.PARTICLES, label_of(run))
     linear.set_xscale("linear")
     linear.set_xlim(0, 0.12)
@@ -54,9 +53,8 @@ def collapse_in_words(one):
 
 def rheology(study):
     run = study.main_run()
-    figure = plt.figure(figsize=(14, 10.5))
-    upper, lower = figure.subfigures(2, 1)
-    linear, logarithmic = ratio_panels(study, upper, run, "mu")
+    figure, panels = style.panels(4, height=3.4)
+    linear, logarithmic = ratio_panels(study, panels[:2], run, "mu")
     friction = study.content["friction"]
     found = "no law was fitted"
     if friction:
@@ -69,16 +67,15 @@ def rheology(study):
     if paper:
         logarithmic.plot(paper["curve"]["I"], paper["curve"]["mu"], color=style.PAPER, linestyle="-.", linewidth=1.4, zorder=5,
                          label=f"paper: {paper['a']:g} + {paper['b']:g} ln $I$")
-    speed_legend(logarithmic, study, loc="upper left", handletextpad=0.3, labelspacing=0.3)
+    speed_legend(logarithmic, study, loc="upper left", ncols=2, handletextpad=0.3, labelspacing=0.3)
     linear.legend(loc="lower right")
     for axes in (linear, logarithmic):
-        axes.set_ylim(0.1, 0.5)
-    panels = ratio_panels(study, lower, run, "k")
-    for axes in panels:
+        axes.set_ylim(0.1, 0.6)
+    for axes in ratio_panels(study, panels[2:], run, "k"):
         axes.axhline(1, color="k", linestyle="-.", linewidth=1)
         axes.set_ylim(0.7, 1.4)
     collapse = study.content["collapse"]
-    return (figure, f"Fig. 11: stress ratios over the inertial number, {label_of(run)}; right: all speeds",
+    return (figure, f"Fig. 11: stress ratios over the inertial number, {label_of(run)}, and of all speeds",
             "mu = 0.35 + 0.013 log I from 1e-4 to 1e-1 for all Q, decreasing faster below; k = 0.8 at I -> 0, a maximum of 1.2 at "
             "I = 1e-3, 1 in the flowing layer, no collapse.",
             f"{found}. mu(I): {collapse_in_words(collapse['mu'])}. k(I): {collapse_in_words(collapse['k'])}; its maximum is "
@@ -102,9 +99,9 @@ def ratio_to_shear(run, name):
 def fluctuations(study):
     run = study.main_run()
     names = fluctuation_names(run)
-    figure, panels = plt.subplots(1, len(names), figsize=(6.5 * len(names), 5), squeeze=False)
+    figure, panels = style.panels(len(names), height=3.8)
     found = []
-    for axes, (name, plateau, label) in zip(panels[0], names):
+    for axes, (name, plateau, label) in zip(panels, names):
         depth_panel(axes, run, label)
         ratios, errors = ratio_to_shear(run, name)
         rows = run.inside()
@@ -127,10 +124,10 @@ def fluctuations(study):
 
 def fluctuations_over_inertia(study):
     names = fluctuation_names(study.main_run())
-    figure, panels = plt.subplots(1, len(names), figsize=(6.5 * len(names), 5.4), squeeze=False)
+    figure, panels = style.panels(len(names), height=4.4)
     found = []
     laws = {"dv": ("static_velocity_fluctuation", "dv_exponent"), "domega": ("static_spin_fluctuation", "domega_exponent")}
-    for axes, (name, plateau, label) in zip(panels[0], names):
+    for axes, (name, plateau, label) in zip(panels, names):
         for run in study.first_runs():
             if run.has(name):
                 ratios, errors = ratio_to_shear(run, name)
@@ -152,14 +149,14 @@ def fluctuations_over_inertia(study):
                               linestyle=line, zorder=5, label=f"slope {text}")
         axes.set_xlim(1e-5, 0.3)
         axes.set_ylim(1, 200)
-        axes.legend(loc="upper right", fontsize=9, ncols=2)
+        axes.legend(loc="upper right", ncols=2)
         found.append(f"{name}: exponent {shown(measured, 2)} over all speeds")
     return (figure, "Fig. 14: fluctuations over the shear rate against I, all speeds",
             "below I_th dv/shear rate ~ I^(-1/2), domega/shear rate ~ I^(-1/3).", "; ".join(found) + ".")
 
 
 def volume_fraction_over_inertia(study):
-    figure, axes = plt.subplots(figsize=(7.5, 5))
+    figure, (axes,) = style.panels(1, height=4.6)
     for run in study.first_runs():
         over_inertia(axes, run, run.columns["nu"], run.half_width("nu"), color_of(study, run.rpm), label_of(run))
     axes.set_xlim(1e-5, 0.3)

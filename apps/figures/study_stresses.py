@@ -2,8 +2,6 @@
 
 import math
 
-import matplotlib.pyplot as plt
-
 import style
 from study_panels import depth_panel, draw, limits_of
 from style import FIT
@@ -19,7 +17,7 @@ def weight_of(study, run):
 
 def stresses(study):
     run = study.main_run()
-    figure, panels = plt.subplots(1, 3, figsize=(16, 4.8))
+    figure, panels = style.panels(3)
     cosine, sine = weight_of(study, run)
     for axes, name, slope, words in ((panels[0], "sigma_zz", cosine, r"$-z\,\nu\cos\theta$"), (panels[1], "sigma_xx", None, ""),
                                      (panels[2], "sigma_xz", sine, r"$-z\,\nu\sin\theta$")):
@@ -42,23 +40,25 @@ def gradient_panel(axes, run, name, expected=None, words=None):
     draw(axes, run, name, rows=run.z <= 1)
     if expected is not None:
         axes.axhline(expected, color=FIT, label=words)
-        axes.legend(loc="upper right", fontsize=10)
+        axes.legend(loc="upper right")
     axes.set_ylim(*limits_of(run, name, run.off_ends(), with_bands=True))
+    if expected is not None:
+        style.room_above(axes, 0.2)
     axes.set_xlim(run.wall, 2)
 
 
 def stress_gradients(study):
     run = study.main_run()
-    names = ("d_sigma_zz_dz", "d_sigma_xx_dz", "d_sigma_xz_dz", "d_sigma_zz_dx", "d_sigma_xx_dx", "d_sigma_xz_dx")
+    names = ("d_sigma_zz_dz", "d_sigma_zz_dx", "d_sigma_xx_dz", "d_sigma_xx_dx", "d_sigma_xz_dz", "d_sigma_xz_dx")
     if not run.has(*names):
         return None
     cosine, sine = weight_of(study, run)
     expected = {"d_sigma_zz_dz": (-cosine, r"$-\nu\cos\theta$"), "d_sigma_xz_dz": (-sine, r"$-\nu\sin\theta$"),
                 "d_sigma_zz_dx": (0, "0"), "d_sigma_xz_dx": (0, "0")}
-    figure, panels = plt.subplots(2, 3, figsize=(16, 8.6))
-    for axes, name in zip(panels.flat, names):
+    figure, panels = style.panels(len(names), 2)
+    for axes, name in zip(panels, names):
         gradient_panel(axes, run, name, *expected.get(name, (None, None)))
-    panels[1][1].axhline(0, color="0.6", linewidth=1)
+    panels[names.index("d_sigma_xx_dx")].axhline(0, color="0.6", linewidth=1)
     words = {name: shown(study.at_main_speed(name), 2) for name in
              (f"dsigma_{component}_dx_{zone}" for component in ("zz", "xx", "xz") for zone in ("flowing", "static"))}
     return (figure, f"Fig. 9: gradients of the stresses, {label_of(run)}",
@@ -72,7 +72,7 @@ def k_gradient(study):
     run = study.main_run()
     if not run.has("d_k_dx"):
         return None
-    figure, axes = plt.subplots(figsize=(7.5, 5))
+    figure, (axes,) = style.panels(1, height=4.6)
     gradient_panel(axes, run, "d_k_dx")
     axes.axhline(0, color="0.6", linewidth=1)
     mean = study.at_main_speed("dk_dx")

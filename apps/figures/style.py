@@ -8,6 +8,7 @@ import textwrap
 import matplotlib
 import matplotlib.collections
 import matplotlib.pyplot as plt
+import matplotlib.text
 import matplotlib.ticker
 import numpy as np
 
@@ -23,6 +24,9 @@ OTHERS = ["#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#F0E442"]
 COLORS = [PARTICLES, CONTINUUM] + OTHERS
 FIT = CONTINUUM  # lines that are fitted or expected, not measured
 
+WIDEST = 7.1  # in, of any figure...
+LEAST_LABEL, SHOWN_WIDTH = 7.0, 400 / 96  # ... so that words of 12 points have so many where it is shown as wide as this, in: 400 pixels
+
 LEAST_SHOWN_NU = 0.05  # volume fraction of the loosest layer that is drawn
 
 
@@ -33,12 +37,15 @@ def use_style():
         "figure.figsize": (6.4, 4.6),
         "figure.dpi": 110,
         "savefig.dpi": 110,
+        "savefig.pad_inches": 0.04,  # as constrained layout leaves
         # Half of what a figure costs. Tests that look at numbers go without.
         "figure.constrained_layout.use": not os.environ.get("DRUMLIN_DRAFT_FIGURES"),
         "font.size": 12,
         "axes.titlesize": 13,
         "axes.labelsize": 13,
-        "legend.fontsize": 11,
+        "legend.fontsize": 12,
+        "legend.handlelength": 1.6,
+        "figure.titlesize": 13,
         "legend.frameon": False,
         "lines.linewidth": 1.8,
         "lines.markersize": 4,
@@ -52,7 +59,29 @@ def use_style():
     })
 
 
-def plain(text, width=80, lines=3):
+def panels(count, columns=1, height=3.2, **shared):
+    """(figure, list of its axes) of so many panels in columns, as wide as a figure may be; a row has this height in inches. Places that are left over
+    show nothing."""
+    rows = math.ceil(count / columns)
+    figure, grid = plt.subplots(rows, columns, figsize=(WIDEST, height * rows), squeeze=False, **shared)
+    for axes in grid.flat[count:]:
+        axes.axis("off")
+    return figure, list(grid.flat)
+
+
+def places(rows, height=3.2):
+    """(figure, places of its panels), as wide as a figure may be: rows of one panel or of two, as [1, 2, 2]."""
+    figure = plt.figure(figsize=(WIDEST, height * len(rows)))
+    grid = figure.add_gridspec(len(rows), 2)
+    return figure, [grid[k, place] for k, count in enumerate(rows) for place in ([slice(None)] if count == 1 else [0, 1])]
+
+
+def maps(count, columns, wide, high, **shared):
+    """panels() for fields over a part of the plane that is so wide and high, drawn to scale beside their bars of colours."""
+    return panels(count, columns, 1.1 + min(max((WIDEST / columns - 1.5) * high / wide, 0.8), 4.5), **shared)
+
+
+def plain(text, width=64, lines=3):
     """A text of the user (a title, a name) as it stands, for a figure: no mathematics in it, what cannot be drawn replaced, wrapped,
     and cut after so many lines. Matplotlib takes what stands between two $ for mathematics, and \\$ for the sign."""
     seen = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in str(text))
@@ -84,13 +113,27 @@ def title_of(text, reduced):
 def stamp(figure, reduced):
     """Writes "reduced" above a figure that stands for a reduced run; a title of its own says it already (title_of)."""
     if reduced and getattr(figure, "_suptitle", None) is None:
-        figure.suptitle("reduced", x=0.99, ha="right", fontsize=13, color="#B00000", weight="bold")
+        figure.suptitle("reduced", x=0.99, ha="right", color="#B00000", weight="bold")
+
+
+def smallest_label(figure):
+    """(points, text) of its smallest words where the figure, which was drawn, is shown SHOWN_WIDTH wide."""
+    cut = plt.rcParams["savefig.bbox"] == "tight"
+    width = figure.get_tightbbox().width + 2 * plt.rcParams["savefig.pad_inches"] if cut else figure.get_figwidth()
+    words = [text for text in figure.findobj(matplotlib.text.Text) if text.get_visible() and text.get_text()]
+    return min(((text.get_fontsize() * SHOWN_WIDTH / width, text.get_text()) for text in words), default=(math.inf, ""))
 
 
 def save(figure, path, reduced):
+    """Writes a figure and closes it. One that cannot be read where pages are narrow is a fault of its script: AssertionError."""
     stamp(figure, reduced)
+    if any(axes.get_aspect() != "auto" for axes in figure.axes):  # a second pass settles where panels to scale lie
+        figure.draw_without_rendering()
     with whole_file.aside(path) as stream:
         figure.savefig(stream, format=pathlib.Path(path).suffix[1:] or None, metadata={"Software": None})
+        points, text = smallest_label(figure)
+        if points < LEAST_LABEL:
+            raise AssertionError(f"{path}: \"{text}\" would have {points:.1f} points, less than {LEAST_LABEL:g}, in a picture {96 * SHOWN_WIDTH:.0f} pixels wide")
     plt.close(figure)
 
 
@@ -117,6 +160,13 @@ class FewNumbers(matplotlib.ticker.LogFormatterSciNotation):
         decades = abs(math.log10(high / low)) if low > 0 else 2
         if 0.2 < decades <= 1:
             self._sublabels = {1, 2, 5} if decades > 0.6 else {1, 2, 3, 5} if decades > 0.4 else {1, 2, 3, 4, 5, 6, 8}
+
+
+def room_above(axes, share):
+    """Room for a legend above the curves: a share of the axis as it is."""
+    change = axes.yaxis.get_transform()
+    low, high = change.transform(axes.get_ylim())
+    axes.set_ylim(top=change.inverted().transform(high + share * (high - low)))
 
 
 def positive(values):

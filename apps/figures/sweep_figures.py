@@ -4,12 +4,9 @@ usage: sweep_figures.py SWEEP.json FOLDER
 FOLDER takes quantities.png; nothing where no run has a number yet.
 """
 
-import itertools
 import math
 import pathlib
 import sys
-
-import matplotlib.pyplot as plt
 
 import quantity_table
 import script
@@ -74,7 +71,6 @@ def draw_panel(axes, key, quantity, groups):
     elif min(x) > 0 and max(x) > 20 * min(x):
         axes.set_xscale("log")
     axes.set(xlabel=style.plain(key, 40), ylabel=label_of(quantity))
-    axes.yaxis.label.set_fontsize(11)
     return few and len(lines) > 1
 
 
@@ -83,14 +79,10 @@ def draw(content):
     panels = [(quantity, key) for quantity in content["quantities"] for key in varied_keys(groups)]
     if not panels:
         return None
-    columns = min(3, len(panels)) if len(varied_keys(groups)) == 1 else len(varied_keys(groups))
-    rows = math.ceil(len(panels) / columns)
-    figure, grid = plt.subplots(rows, columns, squeeze=False, figsize=(5 * columns, 3.2 * rows))
-    for axes, panel in itertools.zip_longest(grid.flat, panels):
-        if panel is None:
-            axes.set_visible(False)
-        elif draw_panel(axes, panel[1], panel[0], groups):
-            axes.legend(fontsize=9)
+    figure, places = style.panels(len(panels), min(2, len(panels)))
+    for axes, (quantity, key) in zip(places, panels):
+        if draw_panel(axes, key, quantity, groups):
+            axes.legend()
     return figure
 
 

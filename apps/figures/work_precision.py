@@ -8,7 +8,6 @@ import math
 import pathlib
 import sys
 
-import matplotlib.pyplot as plt
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 import script
@@ -85,7 +84,6 @@ def draw_panel(axes, cost, quantity):
     shown = [point for point in cost["points"] if "failure" not in point]
     limit_errors(axes, [error_of(point, quantity) for point in shown])
     mark_seconds(axes, [point["cpu_seconds"] for point in shown])
-    axes.tick_params(axis="both", which="both", labelsize=11)
     axes.set_title(name_of(quantity))
     axes.set_xlabel("processor seconds per second" if cost["kind"] == "particles" else "processor time  [s]")
 
@@ -93,18 +91,14 @@ def draw_panel(axes, cost, quantity):
 def draw(cost):
     """The work-precision diagram of one cost.json, a panel for each quantity."""
     quantities = [quantity for quantity in cost["quantities"] if any(error_of(point, quantity) > ROUNDING for point in cost["points"])]
-    columns = 2
-    rows = math.ceil((len(quantities) + 1) / columns)  # the last place is the legend's
-    figure, panels = plt.subplots(rows, columns, figsize=(7.5, 3.1 * rows), squeeze=False)
-    for axes, quantity in zip(panels.flat, quantities):
+    figure, panels = style.panels(len(quantities) + 1, 2)  # the last place is the legend's
+    for axes, quantity in zip(panels, quantities):
         draw_panel(axes, cost, quantity)
-    for row in panels:
-        row[0].set_ylabel("relative error")
-    for axes in panels.flat[len(quantities):]:
-        axes.axis("off")
-    handles, labels = panels.flat[0].get_legend_handles_labels()
-    panels.flat[len(quantities)].legend(handles, labels, loc="center left")
-    figure.suptitle(style.plain(style.title_of(f"{cost['title']}: {subtitle(cost)}", cost["reduced"]), 60), fontsize=13)
+    for axes in panels[:len(quantities):2]:
+        axes.set_ylabel("relative error")
+    panels[len(quantities)].axis("off")
+    panels[len(quantities)].legend(*panels[0].get_legend_handles_labels(), loc="center left")
+    figure.suptitle(style.plain(style.title_of(f"{cost['title']}: {subtitle(cost)}", cost["reduced"])))
     return figure
 
 
@@ -123,17 +117,15 @@ def draw_statistics(cost):
     known = [name for name in STATISTICS if any(name in point["statistics"]["scalars"] for point in points)]
     if not points or not known:
         return None
-    columns = 2
-    rows = math.ceil(len(known) / columns)
-    figure, panels = plt.subplots(rows, columns, figsize=(7.5, 3.1 * rows), squeeze=False)
+    figure, panels = style.panels(len(known) + 1, 2)  # the last place is the legend's
     steps = sorted({point["step_s"] for point in points})
-    for axes, name in zip(panels.flat, known):
+    for axes, name in zip(panels, known):
         for step, color in zip(steps, style.COLORS):
             here = sorted((point for point in points if point["step_s"] == step), key=lambda point: point["tolerance"])
             found = [(point["statistics"]["cpu_seconds"], point["statistics"]["scalars"].get(name, {})) for point in here]
             found = [(seconds, entry["value"], entry["ci99"] or 0) for seconds, entry in found if entry.get("value") is not None]
             axes.errorbar([x for x, _, _ in found], [y for _, y, _ in found], [e for _, _, e in found], fmt="o-", linewidth=1, capsize=3, color=color,
-                          label=f"step {step:g} s, tolerance along the curve")
+                          label=f"step {step:g} s,\ntolerance along the curve")
         for point in points:
             entry = point["statistics"]["scalars"].get(name, {})
             if point["default"] and entry.get("value") is not None:
@@ -142,11 +134,10 @@ def draw_statistics(cost):
         mark_seconds(axes, [point["statistics"]["cpu_seconds"] for point in points])
         axes.set_title(name_of(name))
         axes.set_xlabel("processor time  [s]")
-    for axes in panels.flat[len(known):]:
-        axes.axis("off")
-    panels.flat[0].legend(fontsize=9)
+    panels[len(known)].axis("off")
+    panels[len(known)].legend(*panels[0].get_legend_handles_labels(), loc="center left")
     seconds = points[0]["statistics"]["simulated_seconds"]
-    figure.suptitle(style.plain(style.title_of(f"{cost['title']}: measured over {seconds:g} s, bars 99 %", cost["reduced"]), 60), fontsize=13)
+    figure.suptitle(style.plain(style.title_of(f"{cost['title']}: measured over {seconds:g} s, bars 99 %", cost["reduced"])))
     return figure
 
 
