@@ -64,7 +64,8 @@ def draw_arc(axes, arc, with_legend):
     axes.set_xlabel("angle, downslope +  [°]")
     axes.set_ylabel("axis less that of\nsimple shear  [°]")
     if with_legend:
-        axes.legend()
+        style.room_above(axes, 0.6)
+        axes.legend(loc="upper left")
 
 
 LEAST_POINTS = 4  # of an arc: fewer show no course
@@ -87,11 +88,11 @@ def draw_curvature(axes, nonlocal_record):
             below = [mu for mu in middle if mu < threshold] + [threshold]
             axes.plot(below, [(threshold - mu) / amplitude**2 for mu in below], line, color=style.CONTINUUM, label=f"{name}: A = {amplitude:.2f}")
     axes.axhline(0, color="0.6", linewidth=0.8)
-    axes.set_ylim(top=2.5 * max(length["curvature"] for length in lengths))
+    axes.set_ylim(top=4 * max(length["curvature"] for length in lengths))
     axes.set_xlabel(r"$|s|/p$")
     axes.set_ylabel(r"$\nabla^2g/g$  [$1/d^2$]")
     axes.set_title("Curvature of the fluidity")
-    axes.legend()
+    axes.legend(loc="upper right", frameon=True)
 
 
 def draw_misfits(axes, nonlocal_record):
@@ -102,7 +103,8 @@ def draw_misfits(axes, nonlocal_record):
     axes.set_xlabel(r"$\mu_s$")
     axes.set_ylabel("residual of $|s|/p$\nin the bed, rms")
     axes.set_title("Threshold of the fluidity")
-    axes.legend()
+    style.room_above(axes, 0.3)
+    axes.legend(loc="upper left")
 
 
 def nonlocal_panels(nonlocal_record):
@@ -171,7 +173,7 @@ def main():
     further = [panel for panels_of, key in ((memory_panels, "memory"), (nonlocal_panels, "nonlocal")) if key in record for panel in panels_of(record[key])]
     alone = 2 + ("memory" in record)
     figure, places = style.places([1] * alone + [2] * math.ceil((len(parts) + len(further) - alone) / 2), 3.4)
-    panels = [figure.add_subplot(place) for place in places]
+    panels = [figure.add_subplot(place) for place in places[:len(parts) + len(further)]]
     for axes, (draw, title) in zip(panels, parts):
         draw(axes, record)
         axes.set_title(title)

@@ -52,7 +52,7 @@ def draw_sides(axes, study, name, over):
         if chosen:
             axes.plot([p[0] for p in chosen], [p[1] for p in chosen], "s", color=style.CONTINUUM, markersize=8, markerfacecolor=face,
                       markeredgewidth=1.6, label=label)
-    axes.set_ylabel(quantity_table.SCALARS[name].axis_label())
+    axes.set_ylabel(quantity_table.SCALARS[name].axis_label().replace("  [", "\n["))
     axes.set_xlabel("speed of rotation  [rpm]" if over == "rotation_rpm" else quantity_table.SCALARS["Q"].axis_label())
     highest = [p[1] + (0 if math.isnan(p[2]) else p[2]) for p in ours] + [p[1] for p in flows + paper]
     if name != "theta_deg" and highest:
@@ -99,7 +99,7 @@ def speeds(study):
 
 
 def rates(study):
-    figure, axes = style.panels(2)
+    figure, axes = style.panels(2, height=3.8)
     draw_sides(axes[0], study, "shear_rate", "Q")
     draw_sides(axes[1], study, "I_th", "Q")
     axes[0].legend()
@@ -150,8 +150,8 @@ def errors(study):
     axes.set_yticks(range(len(names)), names)
     axes.invert_yaxis()
     axes.set_xlabel("error / what judges it: limit, or larger noise floor")
-    axes.set_title("Continuum against particles: met left of the line, missed right")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.3, -0.15), ncols=2)
+    axes.set_title("met left of the line, missed right")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.3, -0.12), ncols=2)
     return figure
 
 

@@ -82,7 +82,8 @@ READERS = {".h5": about_hdf5, ".json": about_json, ".csv": about_csv, ".toml": a
 
 
 def draw(found, picture):
-    figure, panels = plt.subplots(2, 2, figsize=(12, 10), constrained_layout=True)
+    plt.rcParams["font.size"] = 12
+    figure, panels = plt.subplots(2, 2, figsize=(7.1, 6), constrained_layout=True)
     grains, profile, force, field = panels.flat
     if "snapshot" in found:
         s = found["snapshot"]
@@ -101,7 +102,7 @@ def draw(found, picture):
         force.legend()
     if "maps" in found:
         drumlin.plot.field(field, found["maps"], "nu", label="Volume fraction")
-    figure.savefig(picture, dpi=90)
+    figure.savefig(picture, dpi=110)
 
 
 def main():

@@ -13,7 +13,6 @@ import scipy.special
 import style
 from drum_maps import read_maps
 
-plt = style.plt
 HALF_WIDTH = 10  # d
 
 
@@ -50,7 +49,7 @@ def main():
     parser.add_argument("--flows", nargs="+", required=True, metavar="NAME=FLOWRUN")
     options = parser.parse_args()
     style.use_style()
-    figure, panels = plt.subplots(1, 2, figsize=(11, 5.2), sharey=True)
+    figure, panels = style.panels(2, 2, 5, sharey=True)
     z, particles, depth = mean_of(options.runs)
     for axes, (mean, width) in zip(panels, particles):
         axes.fill_betweenx(z + depth, mean - width, mean + width, color=style.PARTICLES, alpha=0.3, linewidth=0)
@@ -61,8 +60,9 @@ def main():
             axes.plot(value, heights + depth, color=colour, linestyle=line, label=style.plain(name, 60))
     panels[0].set_xlabel(style.axis_label("sigma_xz"))
     panels[0].set_ylabel(style.axis_label("z"))
-    panels[1].set_xlabel(r"$\log_{10}$ of the strain rate $2|D|$  [$\sqrt{g/d}$]")
+    panels[1].set_xlabel(r"$\log_{10}$ $2|D|$  [$\sqrt{g/d}$]")
     panels[0].set_ylim(-60, 2)
+    style.room_above(panels[0], 0.35)
     panels[1].legend(loc="upper left")
     style.save(figure, options.picture, False)
 

@@ -7,7 +7,6 @@ PROBLEM.h5 as `drumlin run` leaves it (with places of contacts), SOLUTION.h5 of 
 import sys
 
 import h5py
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
 
@@ -103,11 +102,10 @@ def main():
     contacts = Contacts(sys.argv[1], sys.argv[2])
     folding = contacts.folding()
     style.use_style()
-    figure = plt.figure(figsize=(11, 6.4))
-    grid = figure.add_gridspec(2, 2, width_ratios=(2.1, 1))
-    draw_places(figure.add_subplot(grid[:, 0]), contacts, folding)
-    draw_loads(figure.add_subplot(grid[0, 1]), contacts, folding)
-    draw_concentration(figure.add_subplot(grid[1, 1]), contacts)
+    figure, (whole, loads, concentration) = style.places([1, 2], 4.4)
+    draw_places(figure.add_subplot(whole), contacts, folding)
+    draw_loads(figure.add_subplot(loads), contacts, folding)
+    draw_concentration(figure.add_subplot(concentration), contacts)
     style.save(figure, sys.argv[3], False)
 
 

@@ -143,7 +143,7 @@ def findings(library, out):
 
 
 def lines_by_friction(library, name, label, reference, file):
-    figure, axes = plt.subplots(figsize=(7.5, 5))
+    figure, (axes,) = style.panels(1, height=5)
     values = sorted({grains["friction"] for grains in kinds(library.columns)})
     for place, value in enumerate(values):
         points = Points(library.columns, friction=value)
@@ -157,20 +157,15 @@ def lines_by_friction(library, name, label, reference, file):
     x = np.geomspace(1e-3, 0.3, 60)
     axes.plot(x, reference(x), "k--", lw=1.2, label="da Cruz et al., 0.4")
     axes.set(xscale="log", xlabel=r"$I = \dot\gamma\sqrt{m/P}$", ylabel=label)
-    axes.legend(title="friction of grains", fontsize=9, ncol=2)
-    style.plt.close(save(figure, file))
-
-
-def save(figure, file):
-    figure.savefig(file)
-    return figure
+    axes.legend(title="friction of grains", ncols=2)
+    style.save(figure, file, False)
 
 
 def by_grains(library, file):
-    figure, panels = plt.subplots(2, 3, figsize=(11, 6.5), sharex=True)
-    for row, friction in zip(panels, (0.4, 0.2)):
+    figure, panels = style.panels(6, 2, sharex=True)
+    for column, friction in enumerate((0.4, 0.2)):
         base = Points(library.columns, friction=friction)
-        for axes, name in zip(row, GRAINS[1:]):
+        for axes, name in zip(panels[column::2], GRAINS[1:]):
             for place, value in enumerate(sorted({g[name] for g in kinds(library.columns) if math.isclose(g["friction"], friction)})):
                 points = Points(library.columns, friction=friction, **{name: value})
                 common = np.isin(points.I, base.I)
@@ -180,15 +175,17 @@ def by_grains(library, file):
                 axes.errorbar(points.I_of_mass[common] * 1.04**place, points.mu[common] / reference, points.mu_ci99[common] / reference, fmt="o-", ms=3, lw=0.8, capsize=2,
                               label="1:2" if name == "spread" and value > 0.55 else f"{value:g}")
             axes.set(xscale="log", title=f"friction {friction:g}: {WORDS[name]}")
-            axes.legend(fontsize=8)
-        row[0].set_ylabel(r"$\mu$ over that of the axis")
-    for axes in panels[1]:
+            style.room_above(axes, 0.45)
+            axes.legend(loc="upper left", ncols=2)
+    for axes in panels[::2]:
+        axes.set_ylabel(r"$\mu$ over that of the axis")
+    for axes in panels[-2:]:
         axes.set_xlabel(r"$I = \dot\gamma\sqrt{m/P}$")
-    plt.close(save(figure, file))
+    style.save(figure, file, False)
 
 
 def of_left_out(out, file):
-    figure, axes = plt.subplots(figsize=(5.8, 5.4))
+    figure, axes = plt.subplots(figsize=(6.4, 5.6))
     for inside, colour in ((True, style.PARTICLES), (False, style.CONTINUUM)):
         chosen = [one for one in out if one["inside"] == inside]
         axes.errorbar([one["mu"] for one in chosen], [one["law"] for one in chosen], [one["half"] for one in chosen], fmt="o", ms=3, lw=0.7, color=colour,
@@ -196,12 +193,12 @@ def of_left_out(out, file):
     ends = [min(one["mu"] for one in out), max(one["mu"] for one in out)]
     axes.plot(ends, ends, "k-", lw=0.8)
     axes.set(xlabel=r"$\mu$ measured", ylabel=r"$\mu$ of the law without these grains")
-    axes.legend(fontsize=9)
-    plt.close(save(figure, file))
+    axes.legend()
+    style.save(figure, file, False)
 
 
 def of_exponents(library, rows, file):
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(12, 4.2))
+    figure, (left, middle, right) = style.panels(3, height=3.6)
     for place, row in enumerate(rows):
         points, colour = Points(library.columns, friction=row["friction"]), plt.cm.viridis(place / len(rows))
         rise = points.mu - row["mu_0"][0]
@@ -213,8 +210,8 @@ def of_exponents(library, rows, file):
     for axes, exponent, start, label in ((left, 0.6, 0.02, r"$\mu-\mu(0)$"), (middle, -0.2, 6, r"$\delta v/(\dot\gamma d)$"), (right, 0.2, 0.15, "share of sliding contacts")):
         axes.plot(x, start * (x / x[0]) ** exponent, "k--", label="b = 0.2")
         axes.set(xscale="log", yscale="log", xlabel=r"$I = \dot\gamma\sqrt{m/P}$", ylabel=label)
-    right.legend(title="friction", fontsize=8, ncol=2)
-    plt.close(save(figure, file))
+    right.legend(title="friction", loc="center left", bbox_to_anchor=(1, 0.5))
+    style.save(figure, file, False)
 
 
 def main():

@@ -15,7 +15,6 @@ import script
 import style
 import whole_file
 
-plt = style.plt
 SCALARS = {"bulk_I": "I", "bulk_mu": "mu", "bulk_shear_rate": "shear_rate", "surface_speed": "surface_speed", "theta_deg": "theta_deg", "H": "H", "Q": "Q"}
 FIELDS = ("v_x", "shear_rate", "sigma_zz", "sigma_xz", "mu", "I")
 
@@ -123,7 +122,7 @@ def drawn(rows, folders, file):
     names = {law: style.plain(law, 30) for law in sorted({row["law"] for row in rows})}
     colours = dict(zip(names, [style.CONTINUUM, *style.OTHERS]))
     scenes = list(dict.fromkeys(row["scene"] for row in rows))
-    figure, (left, right) = plt.subplots(1, 2, figsize=(12, 5), width_ratios=(1.7, 1))
+    figure, (left, right) = style.panels(2, height=4.2)
     for index, law in enumerate(names):
         known = [(scenes.index(row["scene"]), 100 * row["errors"]["v_x"]) for row in rows if row["law"] == law]
         left.bar([place + 0.8 * (index + 0.5) / len(names) - 0.4 for place, _ in known], [error for _, error in known],

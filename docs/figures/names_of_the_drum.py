@@ -67,7 +67,7 @@ def main():
     style.use_style()
     header, grids = drum_maps.read_maps(run / "measured/maps.h5")
     scalars = script.content_of(run / "measured/measured.json")
-    figure, axes = plt.subplots(figsize=(7.6, 6.2))
+    figure, (axes,) = style.panels(1, height=6)
     axes.grid(False)
     colours = draw(axes, header, grids, scalars)
     bar = figure.colorbar(colours, ax=axes, shrink=0.6)

@@ -16,7 +16,6 @@ import script
 import style
 import whole_file
 
-plt = style.plt
 MARGIN = 3.0  # d
 JOP = (0.383, 0.643, 0.279)  # Jop, Forterre, Pouliquen 2006, glass beads
 LIMITS = {"mu": 0.03, "rms": 0.15, "rms_of_shape": 0.05}  # data/spheres/expected.md
@@ -77,7 +76,7 @@ def beside_flow(run, row, curve):
 
 def draw(rows, curves, law, flows, picture):
     style.use_style()
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4.2))
+    figure, (left, right) = style.panels(2, height=3.8)
     number = np.geomspace(0.01, 1, 100)
     left.plot(number, jop(number), color="0.5", label="Jop et al. 2006, glass beads")
     if law:

@@ -8,7 +8,6 @@ import math
 import pathlib
 import sys
 
-import matplotlib.pyplot as plt
 import script
 import style
 
@@ -42,15 +41,8 @@ def mesh_axes(axes, title, label):
     axes.legend(loc="upper left")
 
 
-def two_in_a_row(count, **shared):
-    figure, panels = plt.subplots(2, 2, figsize=(9, 8.4), **shared)
-    for axes in panels.flat[count:]:
-        axes.axis("off")
-    return figure, panels.flat
-
-
 def draw_orders(data, folder):
-    figure, panels = two_in_a_row(4, sharex=True, sharey=True)
+    figure, panels = style.panels(4, 2, 3.9, sharex=True, sharey=True)
     for axes, (key, title) in zip(panels, MANUFACTURED.items()):
         rows = data[key]
         for (name, (label, slope)), color in zip(NAMES.items(), [style.PARTICLES, style.CONTINUUM, style.OTHERS[0]]):
@@ -66,7 +58,7 @@ def draw_orders(data, folder):
 
 
 def draw_gaps(data, folder):
-    figure, panels = two_in_a_row(3, sharey=True)
+    figure, panels = style.panels(3, 2, 3.9, sharey=True)
     for axes, key, title in zip(panels, ("incline", "chute", "annulus"),
                                 ("Incline (Bagnold)", "Upright chute", "Annular Couette flow")):
         rows = data[key]

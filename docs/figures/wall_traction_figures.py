@@ -86,7 +86,7 @@ def main():
     for run in options.particles:
         runs[rpm_of(run)].append(of_run(run))
     flow_rpm = 6 if 6 in runs else min(runs)
-    figure, (left, right) = plt.subplots(1, 2, figsize=(12, 4.8), sharey=True)
+    figure, (left, right) = style.panels(2, height=4, sharey=True)
     colors = plt.cm.viridis([0.9 * i / max(1, len(runs) - 1) for i in range(len(runs))])
     for (rpm, found), color in zip(sorted(runs.items()), colors):
         angles = list(found[0])
@@ -104,10 +104,10 @@ def main():
         left.plot(angles, ratios, "-", color=color, label=f"continuum, {label}")
     for axes, title in ((left, "Both sides"), (right, "Particles at all speeds")):
         axes.set_xlabel("angle from below the axis  [deg]; + downslope")
-        axes.set_title(title, fontsize=12)
-        axes.legend(fontsize=10)
+        axes.set_title(title)
+        axes.legend()
     left.set_ylabel("shear / normal traction near the wall")
-    left.annotate("the bed turns this way", xy=(-30, 0.02), xytext=(20, 0.02), arrowprops={"arrowstyle": "->", "color": "0.4"}, color="0.4", fontsize=10, va="center")
+    left.annotate("the bed turns this way", xy=(-30, 0.02), xytext=(20, 0.02), arrowprops={"arrowstyle": "->", "color": "0.4"}, color="0.4", va="center")
     style.save(figure, options.picture, False)
 
 

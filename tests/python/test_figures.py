@@ -60,6 +60,27 @@ def test_the_table_of_quantities_has_labels_that_figures_and_pages_can_show():
     assert quantities.SCALARS["lambda"].in_html() == "decay length λ (d)" and quantities.field("log10_I").compared == "log10"
 
 
+@pytest.mark.parametrize("draft", [None, "1"])
+def test_a_figure_whose_words_are_too_small_is_refused(tmp_path, monkeypatch, draft):
+    monkeypatch.setenv("DRUMLIN_DRAFT_FIGURES", draft) if draft else monkeypatch.delenv("DRUMLIN_DRAFT_FIGURES", raising=False)
+    style = drumlin.plot.figure_module("style")
+    with matplotlib.rc_context():
+        style.use_style()
+        assert plt.rcParams["font.size"] * 400 / 96 / style.WIDEST >= 7
+        for name, width, words, points in (("wide", 8.4, 12, 6.0), ("small", style.WIDEST, 10, 5.9)):
+            figure, (axes, _) = style.panels(2, 2)
+            figure.set_figwidth(width)
+            axes.set_title("title", fontsize=words)
+            with pytest.raises(AssertionError, match=f"would have {points:.1f} points, less than 7, in a picture 400 pixels wide"):
+                style.save(figure, tmp_path / f"{name}.png", False)
+            plt.close(figure)
+        assert not list(tmp_path.iterdir())
+        figure, panels = style.maps(3, 2, 2, 1)
+        assert [axes.axison for axes in panels] == [True, True, True, False]
+        style.save(figure, tmp_path / "right.png", True)
+        assert [file.name for file in tmp_path.iterdir()] == ["right.png"]
+
+
 def drawn(axes):
     axes.figure.canvas.draw()
     plt.close(axes.figure)
