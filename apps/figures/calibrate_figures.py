@@ -5,6 +5,7 @@ usage: calibrate_figures.py RECORD_JSON PICTURE
 
 The law is drawn and subtracted as the record holds it: the command evaluates it, with the function that the flow uses."""
 
+import functools
 import itertools
 import math
 import sys
@@ -68,7 +69,7 @@ def draw_arc(axes, arc, with_legend):
         axes.legend(loc="upper left")
 
 
-LEAST_POINTS = 4  # of an arc: fewer show no course
+LEAST_POINTS = 4  # of a panel: fewer show no course
 
 
 def memory_panels(memory):
@@ -108,7 +109,8 @@ def draw_misfits(axes, nonlocal_record):
 
 
 def nonlocal_panels(nonlocal_record):
-    return [lambda axes: draw_curvature(axes, nonlocal_record), lambda axes: draw_misfits(axes, nonlocal_record)]
+    drawn = [draw_curvature, draw_misfits] if len(nonlocal_record["lengths"]) >= LEAST_POINTS else [draw_misfits]
+    return [functools.partial(draw, nonlocal_record=nonlocal_record) for draw in drawn]
 
 
 def curve_of(record):

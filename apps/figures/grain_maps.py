@@ -19,9 +19,10 @@ import whole_file
 from result_files import number_of
 
 BESIDE, ABOVE = 1.9, 1.1  # in, of labels, bar and title
+RIM = 0.1  # in, by which labels reach out of the figure: the picture is cut around them
 HIGHEST, SHORT_SIDE = 8.0, 2.0  # in, of a map
 DPI = 250
-TITLE = 60  # characters in a line of the title
+TITLE = 56  # characters in a line of the title
 WALL = "0.15"
 GRAIN_CONTACT = style.PARTICLES
 WALL_CONTACT = style.CONTINUUM
@@ -159,7 +160,7 @@ class View:
         if window is not None:
             self.low, self.high = np.array([window[0], window[2]]), np.array([window[1], window[3]])
         size = self.high - self.low
-        self.inches = min((style.WIDEST - BESIDE) / size[0], HIGHEST / size[1])  # per d
+        self.inches = min((style.WIDEST - BESIDE - RIM) / size[0], HIGHEST / size[1])  # per d
         self.figure_size = np.maximum(size * self.inches, SHORT_SIDE)
 
     def outside(self, grains):

@@ -15,8 +15,8 @@ NAMES = {"velocity": (r"velocity, $L_2$", 3), "gradient": (r"velocity gradient, 
          "pressure": (r"pressure, $L_2$", 2)}
 
 MANUFACTURED = {"manufactured_newtonian": "Newtonian fluid", "manufactured_friction": r"$\mu(I)$, pressure-coupled",
-                "manufactured_given_turn": r"with $k(I)$, turn of the stress given",
-                "manufactured_found_turn": r"with $k(I)$, turn found from the flow"}
+                "manufactured_given_turn": r"$k(I)$, turn given",
+                "manufactured_found_turn": r"$k(I)$, turn found"}
 
 
 def order(rows, name):
