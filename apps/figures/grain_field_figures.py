@@ -71,7 +71,7 @@ def draw(fields, number, reduced):
     inches = min((style.WIDEST - beside) / size[0], HIGHEST / size[1])
     known = "sigma_zz_contact" in fields.of  # not in an imported snapshot that does not know its contacts
     count = 2 if known else 1
-    figure, panels = plt.subplots(count, 1, figsize=(max(size[0] * inches, 1) + beside, count * size[1] * inches + 1.2), sharex=True,
+    figure, panels = plt.subplots(count, 1, figsize=(max(size[0] * inches, 2) + beside, count * size[1] * inches + 1.2), sharex=True,
                                   squeeze=False)
     panels = panels[:, 0]
     for axes in panels:

@@ -19,7 +19,7 @@ SHOWN = 3000  # samples in a panel
 
 
 def label(name):
-    return style.plain(name.removeprefix("effects.").replace("_", " "), 24)
+    return style.plain(name.removeprefix("effects.").replace("_", " ").replace(".", " "), 14)
 
 
 def title_of(name, one):
@@ -54,13 +54,13 @@ def draw_one(axes, name, one, values):
     for end in ("low", "high"):
         axes.axvline(one[end], color=style.CONTINUUM, linewidth=1.2)
     axes.set_yticks([])
-    axes.set_title(title_of(name, one), fontsize="medium")
+    axes.set_title(title_of(name, one), fontsize="medium", loc="right" if axes.get_subplotspec().is_last_col() else "center")
 
 
 def draw_two(axes, x, y, correlation):
     step = max(1, len(x) // SHOWN)
     axes.plot(x[::step], y[::step], ".", color=style.PARTICLES, markersize=1.5, alpha=0.3, rasterized=True)
-    axes.text(0.04, 0.94, f"correlation {correlation:.2f}", transform=axes.transAxes, va="top",
+    axes.text(0.04, 0.94, rf"$r$ = {correlation:.2f}", transform=axes.transAxes, va="top",
               bbox={"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 1.5})
 
 
