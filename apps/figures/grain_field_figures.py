@@ -51,7 +51,8 @@ def add_map(figure, axes, fields, values, inches, label, **colours):
                                                  linewidth=1.6))
     axes.axhline(0, color="0.4", linewidth=0.8, linestyle="--")
     axes.set_ylabel(r"$z$  [$d$]")
-    figure.colorbar(discs, ax=axes, extend="both", shrink=0.9, label=label)
+    axes.set_title(label)
+    figure.colorbar(discs, ax=axes, extend="both", shrink=0.9)
 
 
 def add_pressure(figure, axes, fields, inches):
@@ -67,11 +68,11 @@ def add_pressure(figure, axes, fields, inches):
 def draw(fields, number, reduced):
     low, high = fields.limits()
     size = high - low
-    beside = 1.9  # in, of labels and bar
+    beside = 2.2  # in, of labels and bar
     inches = min((style.WIDEST - beside) / size[0], HIGHEST / size[1])
     known = "sigma_zz_contact" in fields.of  # not in an imported snapshot that does not know its contacts
     count = 2 if known else 1
-    figure, panels = plt.subplots(count, 1, figsize=(max(size[0] * inches, 2) + beside, count * size[1] * inches + 1.2), sharex=True,
+    figure, panels = plt.subplots(count, 1, figsize=(max(size[0] * inches, 2.6) + beside, count * (max(size[1] * inches, 1) + 0.6) + 0.8), sharex=True,
                                   squeeze=False)
     panels = panels[:, 0]
     for axes in panels:

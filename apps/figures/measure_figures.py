@@ -290,7 +290,7 @@ def sensitivity(run):
     axes.set_yticks(range(len(rows)), [name for name, *_ in rows])
     axes.invert_yaxis()
     axes.set_xlim(-WIDEST_SHARE, WIDEST_SHARE)
-    axes.set_xlabel("relative to the value: band = 99 % over time, line = by other windows")
+    axes.set_xlabel("relative to the value\nband: 99 % over time, line: by other windows")
     axes.set_title(style.title_of("What each scalar owes to its definition", run.reduced))
     return figure
 

@@ -127,13 +127,14 @@ def main():
     if not maps.number("drum_radius") > 0:  # panels may be narrower than their titles
         plt.rcParams["savefig.bbox"] = "tight"
     wide, high = (2.04, 1.32) if maps.number("drum_radius") > 0 else (np.ptp(maps.x), np.ptp(maps.z))
-    figure, axes = style.maps(9, 2, wide, high, sharex=True, sharey=True)
+    columns = 1 if wide > 3 * high else 2
+    figure, axes = style.maps(9, columns, wide, high, sharex=True, sharey=True)
     draw_fields(axes, maps)
     sloping = maps.number("drum_radius") > 0 or abs(maps.number("theta_deg")) > 0
-    for one in axes[7:9]:
+    for one in axes[9 - columns:9]:
         one.tick_params(labelbottom=True)
         one.set_xlabel(r"$x$  [$d$]" + (", downslope" if sloping else ""))
-    for one in axes[0:9:2]:
+    for one in axes[0:9:columns]:
         one.set_ylabel(style.axis_label("z"))
     style.save(figure, folder / "maps.png", content["reduced"])
 

@@ -78,7 +78,7 @@ def places(rows, height=3.2):
 
 def maps(count, columns, wide, high, **shared):
     """panels() for fields over a part of the plane that is so wide and high, drawn to scale beside their bars of colours."""
-    return panels(count, columns, 1.1 + min(max((WIDEST / columns - 1.5) * high / wide, 0.8), 4.5), **shared)
+    return panels(count, columns, 1.1 + min(max((WIDEST / columns - 1.5) * high / wide, 0.8), WIDEST / columns), **shared)
 
 
 def plain(text, width=64, lines=3):
