@@ -5,9 +5,10 @@ const SHADES = 48;
 const VIRIDIS = [[68, 1, 84], [65, 68, 135], [42, 120, 142], [34, 168, 132], [122, 209, 81], [253, 231, 37]];
 const SHADE = Array.from({length: SHADES}, (_, k) => {
   const at = k / (SHADES - 1) * (VIRIDIS.length - 1), low = Math.min(Math.floor(at), VIRIDIS.length - 2);
-  return `rgb(${VIRIDIS[low].map((a, c) => Math.round(a + (VIRIDIS[low + 1][c] - a) * (at - low))).join()})`;
+  return pixel(VIRIDIS[low].map((a, c) => Math.round(a + (VIRIDIS[low + 1][c] - a) * (at - low))));
 });
 const ROW = 5;  // numbers of a grain
+const sheet = {};  // pixels of the grains: a canvas without a graphics card fills thousands of paths slowly
 let fastest = 1;  // speed of the last shade, which follows the fastest twentieth slowly
 
 // A canvas in the pixels of the screen, emptied.
@@ -18,48 +19,79 @@ function fresh(canvas) {
   const at = canvas.getContext("2d");
   at.setTransform(ratio, 0, 0, ratio, 0, 0);
   at.clearRect(0, 0, width, height);
-  return {at, width, height};
+  return {at, width, height, ratio};
 }
 const colour = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-// Positions of a grain and, near a border of a cell, of its images.
-function places(x, z, radius, cell) {
-  if (!cell) return [[x, z]];
-  const [left, bottom, length, height, offset] = cell, found = [];
-  for (const up of [-1, 0, 1])
-    for (const right of [-2, -1, 0, 1, 2]) {
-      const a = x + right * length + up * offset, b = z + up * height;
-      if (a > left - radius && a < left + length + radius && b > bottom - radius && b < bottom + height + radius) found.push([a, b]);
-    }
-  return found;
+// An opaque colour as a canvas keeps it in memory.
+function pixel([red, green, blue]) {
+  return (255 << 24 | blue << 16 | green << 8 | red) >>> 0;
+}
+function pixel_of(at, words) {
+  at.fillStyle = words;
+  const [red, green, blue] = at.fillStyle.match(/\w\w/g).map(part => parseInt(part, 16));
+  return pixel([red, green, blue]);
+}
+
+// A pixel of the sheet that a colour covers in part.
+function blend(place, cover, share) {
+  const to = Math.round(256 * share), of = 256 - to, under = sheet.pixels[place], RED_BLUE = 0xff00ff, GREEN = 0xff00;
+  const red_blue = (under & RED_BLUE) * of + (cover & RED_BLUE) * to, green = (under & GREEN) * of + (cover & GREEN) * to;
+  sheet.pixels[place] = 255 << 24 | red_blue >>> 8 & RED_BLUE | green >>> 8 & GREEN;
+}
+
+// A disc on the sheet, in its pixels; rows end in parts of one.
+function disc(x, y, r, cover) {
+  const {pixels, width, left, top, right, bottom} = sheet, end = Math.min(bottom, Math.ceil(y + r - 0.5));
+  for (let row = Math.max(top, Math.ceil(y - r - 0.5)); row < end; row++) {
+    const half = Math.sqrt(r * r - (row + 0.5 - y) ** 2), from = x - half, to = x + half, start = row * width;
+    const first = Math.floor(from), last = Math.floor(to);
+    if (first >= left && first < right) blend(start + first, cover, Math.min(first + 1, to) - from);
+    if (last > first && last >= left && last < right) blend(start + last, cover, to - last);
+    for (let p = start + Math.max(left, first + 1), stop = start + Math.min(right, last); p < stop; p++) pixels[p] = cover;
+  }
+}
+
+// A grain and, near a border of a cell, its images.
+function each_image(x, z, radius, cell, visit) {
+  if (!cell) return visit(x, z);
+  const [left, bottom, length, height, offset] = cell;
+  for (const up of [-1, 0, 1]) {
+    const b = z + up * height;
+    if (b <= bottom - radius || b >= bottom + height + radius) continue;
+    const from = x + up * offset;
+    for (let a = from + Math.ceil((left - radius - from) / length) * length; a < left + length + radius; a += length) visit(a, b);
+  }
 }
 
 function draw() {
   const {picture} = shown;
   if (!picture) return;
-  const {at, width, height} = fresh($("grains")), {grains, radius, angle, cell} = picture;
+  const {at, width, height, ratio} = fresh($("grains")), {grains, radius, angle, cell} = picture;
   const [left, bottom, wide, high] = cell ?? [-radius, -radius, 2 * radius, 2 * radius];
   const scale = Math.min((width - 24) / wide, (height - 24) / high);
   const toX = x => width / 2 + (x - left - wide / 2) * scale, toY = z => height / 2 - (z - bottom - high / 2) * scale;
-  const speeds = Array.from({length: grains.length / ROW}, (_, g) => Math.hypot(grains[g * ROW + 3], grains[g * ROW + 4]));
-  const high_speed = [...speeds].sort((a, b) => a - b)[Math.floor(0.95 * speeds.length)] || 1;
-  fastest += 0.1 * (Math.max(high_speed, 0.2) - fastest);
-  const paths = Array.from({length: SHADES}, () => new Path2D());
-  for (let g = 0; g < speeds.length; g++) {
-    const r = grains[g * ROW + 2], path = paths[Math.min(SHADES - 1, Math.floor(speeds[g] / fastest * SHADES))];
-    for (const [x, z] of places(grains[g * ROW], grains[g * ROW + 1], r, cell)) {
-      path.moveTo(toX(x) + r * scale, toY(z));
-      path.arc(toX(x), toY(z), r * scale, 0, 2 * Math.PI);
-    }
+  if (sheet.width !== at.canvas.width || sheet.height !== at.canvas.height) {
+    const image = new ImageData(at.canvas.width, at.canvas.height);
+    Object.assign(sheet, {image, pixels: new Uint32Array(image.data.buffer), width: image.width, height: image.height});
   }
-  at.save();
-  at.beginPath();
-  cell ? at.rect(toX(left), toY(bottom + high), wide * scale, high * scale) : at.arc(toX(0), toY(0), radius * scale, 0, 2 * Math.PI);
-  at.fillStyle = colour("--ground");
-  at.fill();
-  at.clip();
-  for (const [k, path] of paths.entries()) at.fillStyle = SHADE[k], at.fill(path);
-  at.restore();
+  const corner = (x, z) => [Math.round(ratio * toX(x)), Math.round(ratio * toY(z))];
+  const begin = corner(left, bottom + high), end = corner(left + wide, bottom);
+  Object.assign(sheet, {left: begin[0], top: begin[1], right: end[0], bottom: end[1]});
+  const ground = pixel_of(at, colour("--ground"));
+  sheet.pixels.fill(0);
+  if (cell)
+    for (let row = sheet.top * sheet.width; row < sheet.bottom * sheet.width; row += sheet.width) sheet.pixels.fill(ground, row + sheet.left, row + sheet.right);
+  else disc(ratio * toX(0), ratio * toY(0), ratio * radius * scale, ground);
+  const speeds = new Float32Array(grains.length / ROW);
+  for (let g = 0; g < speeds.length; g++) speeds[g] = Math.hypot(grains[g * ROW + 3], grains[g * ROW + 4]);
+  const high_speed = speeds.slice().sort()[Math.floor(0.95 * speeds.length)] || 1;
+  fastest += 0.1 * (Math.max(high_speed, 0.2) - fastest);
+  for (let g = 0; g < speeds.length; g++) {
+    const r = grains[g * ROW + 2], shade = SHADE[Math.min(SHADES - 1, Math.floor(speeds[g] / fastest * SHADES))];
+    each_image(grains[g * ROW], grains[g * ROW + 1], r, cell, (x, z) => disc(ratio * toX(x), ratio * toY(z), ratio * r * scale, shade));
+  }
+  at.putImageData(sheet.image, 0, 0);
   at.strokeStyle = colour("--wall");
   at.lineWidth = 4;
   at.beginPath();

@@ -1,13 +1,13 @@
 // The particle engine as a page sees it: a scene is stepped, changed and measured in a browser.
 #include <emscripten/bind.h>
 
-#include <cstdint>
 #include <deque>
 #include <exception>
 #include <memory>
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -72,6 +72,7 @@ class LiveScene {
   val picture() {
     const particles::Bodies& bodies = stepped_.simulation().state().bodies;
     std::vector<float> grains;
+    grains.reserve(5 * bodies.count());
     for (std::size_t b = 0; b < bodies.count(); ++b)
       for (const double number : {bodies.x[b], bodies.z[b], bodies.radius[b], bodies.v_x[b], bodies.v_z[b]})
         grains.push_back(static_cast<float>(number));
@@ -129,24 +130,38 @@ class LiveScene {
   std::deque<particles::Snapshot> snapshots_;
 };
 
-/// What an exception says, which JavaScript catches as its address.
-std::string message_of(std::intptr_t thrown) {
-  return reinterpret_cast<const std::exception*>(thrown)->what();
+/// What an action returns; JavaScript catches an Error where it throws.
+template <class Action>
+auto told(const Action& action) {
+  try {
+    return action();
+  } catch (const std::exception& error) {
+    val::global("Error").new_(std::string(error.what())).throw_();
+  }
+}
+
+/// A member function as JavaScript calls it.
+template <auto member, class... Arguments>
+auto call(LiveScene& scene, Arguments... arguments) {
+  return told([&] { return (scene.*member)(std::move(arguments)...); });
+}
+
+std::unique_ptr<LiveScene> made(const std::string& text, const std::string& overrides) {
+  return told([&] { return std::make_unique<LiveScene>(text, overrides); });
 }
 
 EMSCRIPTEN_BINDINGS(engine) {
-  emscripten::function("message_of", &message_of);
   emscripten::class_<LiveScene>("LiveScene")
-      .constructor<std::string, std::string>()
-      .function("step", &LiveScene::step)
-      .function("set_friction", &LiveScene::set_friction)
-      .function("turn", &LiveScene::turn)
-      .function("shear", &LiveScene::shear)
+      .constructor(&made)
+      .function("step", &call<&LiveScene::step, int>)
+      .function("set_friction", &call<&LiveScene::set_friction, double, double>)
+      .function("turn", &call<&LiveScene::turn, std::string, double>)
+      .function("shear", &call<&LiveScene::shear, double>)
       .function("step_time", &LiveScene::step_time)
       .function("x", &LiveScene::x)
       .function("z", &LiveScene::z)
       .function("picture", &LiveScene::picture)
-      .function("measured", &LiveScene::measured);
+      .function("measured", &call<&LiveScene::measured>);
 }
 
 }  // namespace

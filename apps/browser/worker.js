@@ -59,7 +59,7 @@ function work(engine) {
     due = setTimeout(frame, Math.max(0, begun + 1000 / PICTURES - performance.now()));
   }
 
-  const words = error => typeof error === "number" ? module.message_of(error) : String(error);
+  const words = error => error.message ?? String(error);
 
   onmessage = ({data: {id, name, value}}) => {
     try {
