@@ -8,6 +8,7 @@
 #include "particles/measurement/frame/spheres_in_frame.hpp"
 
 namespace drumlin::particles {
+
 void MapNode::add_centre(const KernelWeight& at, const GrainSample<2>& grain) {
   const auto [phi, phi_x, phi_z] = at;
   const auto [u_x, u_z] = grain.laboratory_velocity;
