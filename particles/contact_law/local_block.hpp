@@ -23,14 +23,12 @@ double largest_eigenvalue(const LocalMatrix& W) {
   if constexpr (dim == 1) {
     return W.nn;
   } else {
+    if constexpr (dim == 2)
+      return W.nt != 0 ? contact_law::larger_eigenvalue(W.nn, W.nt, W.tt) : std::max(W.nn, W.tt);
     if (W.nt != 0) {
-      Eigen::Matrix<double, dim, dim> whole = Eigen::Matrix<double, dim, dim>::Zero();
-      whole(0, 0) = W.nn, whole(1, 1) = W.tt, whole(0, 1) = whole(1, 0) = W.nt;
-      if constexpr (dim == 3) whole(2, 2) = W.rr, whole(1, 2) = whole(2, 1) = W.tr;
-      return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, dim, dim>>(whole, Eigen::EigenvaluesOnly)
-          .eigenvalues()[dim - 1];
+      const Eigen::Matrix3d whole{{W.nn, W.nt, 0}, {W.nt, W.tt, W.tr}, {0, W.tr, W.rr}};
+      return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(whole, Eigen::EigenvaluesOnly).eigenvalues()[2];
     }
-    if constexpr (dim == 2) return std::max(W.nn, W.tt);
     return std::max(W.nn, contact_law::larger_eigenvalue(W.tt, W.tr, W.rr));
   }
 }
