@@ -68,7 +68,7 @@ N clamped(N a, N bound) {
   return std::clamp(a, -bound, bound);
 }
 
-#define CONTACT_LAW
+#define CONTACT_LAW [[gnu::always_inline]] inline
 #include "particles/contact_law/law_text-inl.h"
 #undef CONTACT_LAW
 
