@@ -1,8 +1,9 @@
 """Which law says what of which geometry: a table of the errors of flows that were solved with laws from elsewhere (docs/scenes.md).
 
 usage: law_transfer.py REPORT... [--laws LAW.json...] -o FOLDER
-REPORT is a folder of `drumlin compare RUN FLOWRUN`, of layers or of drums; LAW.json the record of `drumlin calibrate`. A law is called by what it was fitted
-on: the beginnings of the names of its runs, up to their first "-". FOLDER gets transfer.json and transfer.png; the table goes to the standard output.
+REPORT is a folder of `drumlin compare RUN FLOWRUN`, of layers or of drums, or the transfer.json of several; LAW.json the record of `drumlin calibrate`. A law is
+called by what it was fitted on: the beginnings of the names of its runs, up to their first "-". FOLDER gets transfer.json and transfer.png; the table goes to the
+standard output.
 """
 
 import argparse
@@ -117,34 +118,22 @@ def table_of(rows, laws):
     return "\n".join(lines) + "\n"
 
 
-def drawn(rows, folders, file):
-    """Errors of v over the scenes, and v over height in the chute in the middle of its slopes."""
+def drawn(rows, file):
+    """Errors of v over the scenes."""
     names = {law: style.plain(law, 30) for law in sorted({row["law"] for row in rows})}
-    colours = dict(zip(names, [style.CONTINUUM, *style.OTHERS]))
     scenes = list(dict.fromkeys(row["scene"] for row in rows))
-    figure, (left, right) = style.panels(2, height=4.2)
-    for index, law in enumerate(names):
+    figure, (axes,) = style.panels(1, height=4.2)
+    for index, (law, color) in enumerate(zip(names, [style.CONTINUUM, *style.OTHERS])):
         known = [(scenes.index(row["scene"]), 100 * row["errors"]["v_x"]) for row in rows if row["law"] == law]
-        left.bar([place + 0.8 * (index + 0.5) / len(names) - 0.4 for place, _ in known], [error for _, error in known],
-                 0.8 / len(names), color=colours[law], label=f"law of {names[law]}")
+        axes.bar([place + 0.8 * (index + 0.5) / len(names) - 0.4 for place, _ in known], [error for _, error in known],
+                 0.8 / len(names), color=color, label=f"law of {names[law]}")
     floors = {row["scene"]: row["noise_floor"].get("v_x") for row in rows}
     for place, scene in enumerate(scenes):
         if floors[scene] is not None:
-            left.plot([place - 0.45, place + 0.45], [100 * floors[scene]] * 2, color="black", linewidth=1.2)
-    left.set_xticks(range(len(scenes)), [style.plain(scene, 20) for scene in scenes], rotation=40, ha="right")
-    left.set_ylabel(r"error of $v_x$  [%] (lines: another seed)")
-    left.legend()
-    inclines = sorted({row["scene"] for row in rows if row["geometry"] == "incline"})
-    shown = inclines[len(inclines) // 2] if inclines else scenes[0]
-    chosen = [(row, folder) for row, folder in zip(rows, folders) if row["scene"] == shown]
-    for row, folder in chosen:
-        _, columns = style.read_profiles(folder / "overlay.csv")
-        z = np.asarray(columns["z"])
-        if row is chosen[0][0]:
-            right.plot(columns["v_x_particles"], z, "o", color=style.PARTICLES, label="particles")
-        right.plot(columns["v_x_continuum"], z, color=colours[row["law"]])
-    right.set(xlabel=style.axis_label("v_x"), ylabel=style.axis_label("z"), title=style.plain(shown, 30))
-    right.legend()
+            axes.plot([place - 0.45, place + 0.45], [100 * floors[scene]] * 2, color="black", linewidth=1.2)
+    axes.set_xticks(range(len(scenes)), [style.plain(scene, 20) for scene in scenes], rotation=40, ha="right")
+    axes.set_ylabel("error of $v_x$  [%]" + (" (lines: another seed)" if any(floors.values()) else ""))
+    axes.legend()
     style.save(figure, file, reduced=True)
 
 
@@ -155,11 +144,18 @@ def main():
     parser.add_argument("-o", "--output", required=True, type=pathlib.Path)
     options = parser.parse_args()
     style.use_style()
-    rows, laws = [row_of(folder) for folder in options.reports], [law_row(file) for file in options.laws]
+    rows, laws = [], [law_row(file) for file in options.laws]
+    for report in options.reports:
+        if report.is_dir():
+            rows.append(row_of(report))
+            continue
+        before = script.content_of(report)
+        rows += before["pairs"]
+        laws += before["laws"]
     options.output.mkdir(parents=True, exist_ok=True)
     text = json.dumps({"format": "drumlin-law-transfer-1", "laws": laws, "pairs": rows}, indent=1) + "\n"
     whole_file.write_text(options.output / "transfer.json", text)
-    drawn(rows, options.reports, options.output / "transfer.png")
+    drawn(rows, options.output / "transfer.png")
     print(table_of(rows, laws), end="")
 
 
