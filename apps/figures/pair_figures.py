@@ -54,6 +54,8 @@ def panels(sides, rows, columns):
         each.grid(False)
     for each in axes[-1]:
         each.set_xlabel("$x$  [$d$]")
+    for each in axes[:, 0]:
+        each.set_ylabel("$z$  [$d$]")
     return figure, axes
 
 
