@@ -283,14 +283,10 @@ void add_outputs(py::module_& module) {
 void add_costs(py::module_& module) {
   using particles::StretchSettings;
   py::class_<StretchSettings>(module, "StretchSettings")
-      .def(py::init([](const std::string& solver, double tolerance, double step_s, double length_s) {
-             return StretchSettings{solver, tolerance, step_s, length_s};
-           }),
-           py::arg("solver"), py::arg("tolerance"), py::arg("step_s"), py::arg("length_s"));
+      .def(py::init<std::string, double, double, double>(), py::arg("solver"), py::arg("tolerance"),
+           py::arg("step_s"), py::arg("length_s"));
   py::class_<ParticleWork>(module, "ParticleWork")
-      .def(py::init([](const std::string& scene, const Texts& overrides, int threads) {
-        return std::make_unique<ParticleWork>(scene, overrides, threads);
-      }))
+      .def(py::init<std::string, Texts, int>())
       .def_property_readonly("facts", &ParticleWork::facts)
       .def("begin", &ParticleWork::begin)
       .def("stretch", &ParticleWork::stretch, py::arg("settings"), py::arg("saved") = py::none(),

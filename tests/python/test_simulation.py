@@ -166,4 +166,4 @@ def test_objects_tell_what_they_are(box, data):
 def test_columns_become_a_frame(data):
     pytest.importorskip("pandas")
     profiles = drumlin.read(data / "profiles/6rpm-seed1/measured/profiles.csv")
-    assert list(profiles.to_frame()["v_x"]) == list(profiles.v_x)
+    np.testing.assert_array_equal(profiles.to_frame()["v_x"], profiles.v_x)
