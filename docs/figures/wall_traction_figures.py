@@ -107,7 +107,6 @@ def main():
         axes.set_title(title)
         axes.legend()
     left.set_ylabel("shear / normal traction near the wall")
-    left.annotate("the bed turns this way", xy=(-30, 0.02), xytext=(20, 0.02), arrowprops={"arrowstyle": "->", "color": "0.4"}, color="0.4", va="center")
     style.save(figure, options.picture, False)
 
 
