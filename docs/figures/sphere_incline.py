@@ -76,24 +76,24 @@ def beside_flow(run, row, curve):
 
 def draw(rows, curves, law, flows, picture):
     style.use_style()
-    figure, (left, right) = style.panels(2, height=3.8)
+    figure, (upper, lower) = style.panels(2, height=3.8)
     number = np.geomspace(0.01, 1, 100)
-    left.plot(number, jop(number), color="0.5", label="Jop et al. 2006, glass beads")
+    upper.plot(number, jop(number), color="0.5", label="Jop et al. 2006, glass beads")
     if law:
         curve = law["curve"]
-        left.fill_between(curve["I"], curve["low"], curve["high"], color="0.85")
-        left.plot(curve["I"], curve["value"], color="black", label="fitted in Jop's form")
+        upper.fill_between(curve["I"], curve["low"], curve["high"], color="0.85")
+        upper.plot(curve["I"], curve["value"], color="black", label="fitted in Jop's form")
     for z, computed in flows:
-        right.plot(computed, z, "--", color="0.4", linewidth=1)
+        lower.plot(computed, z, "--", color="0.4", linewidth=1)
     for row, curve in zip(rows, curves):
         name = f"{row['theta_deg']:.0f} deg"
-        points = left.plot(curve["I"][curve["core"]], curve["mu"][curve["core"]], ".", alpha=0.5)
-        left.errorbar(row["I"]["value"], row["mu"]["value"], row["mu"]["ci99"], row["I"]["ci99"], fmt="o", color=points[0].get_color(), label=name)
-        right.plot(curve["v_x"], curve["z"], color=points[0].get_color(), label=name)
-    left.set(xscale="log", xlabel="$I$", ylabel=r"$\mu$", xlim=(0.01, 1), ylim=(0.35, 0.65))
-    right.set(xlabel=r"$v_x/\sqrt{gd}$", ylabel="$z/d$")
-    left.legend()
-    right.legend()
+        points = upper.plot(curve["I"][curve["core"]], curve["mu"][curve["core"]], ".", alpha=0.5)
+        upper.errorbar(row["I"]["value"], row["mu"]["value"], row["mu"]["ci99"], row["I"]["ci99"], fmt="o", color=points[0].get_color(), label=name)
+        lower.plot(curve["v_x"], curve["z"], color=points[0].get_color(), label=name)
+    upper.set(xscale="log", xlabel="$I$", ylabel=r"$\mu$", xlim=(0.01, 1), ylim=(0.35, 0.65))
+    lower.set(xlabel=r"$v_x/\sqrt{gd}$", ylabel="$z/d$")
+    upper.legend()
+    lower.legend()
     style.save(figure, picture, False)
 
 

@@ -86,27 +86,27 @@ def main():
     for run in options.particles:
         runs[rpm_of(run)].append(of_run(run))
     flow_rpm = 6 if 6 in runs else min(runs)
-    figure, (left, right) = style.panels(2, height=4, sharey=True)
+    figure, (upper, lower) = style.panels(2, height=4, sharey=True)
     colors = plt.cm.viridis([0.9 * i / max(1, len(runs) - 1) for i in range(len(runs))])
     for (rpm, found), color in zip(sorted(runs.items()), colors):
         angles = list(found[0])
         mean = [sum(run[angle] for run in found) / len(found) for angle in angles]
         print(f"particles {rpm:g} rpm ({len(found)} runs)  {shown(angles, mean)}")
-        right.plot(angles, mean, "o-", color=color, label=f"{rpm:g} rpm")
+        lower.plot(angles, mean, "o-", color=color, label=f"{rpm:g} rpm")
         if rpm == flow_rpm:
             for run in found:
-                left.plot(angles, list(run.values()), "o", markersize=3, color=style.PARTICLES, alpha=0.6)
-            left.plot(angles, mean, "o-", color=style.PARTICLES, markersize=7, label=f"particles, {rpm:g} rpm")
+                upper.plot(angles, list(run.values()), "o", markersize=3, color=style.PARTICLES, alpha=0.6)
+            upper.plot(angles, mean, "o-", color=style.PARTICLES, markersize=7, label=f"particles, {rpm:g} rpm")
     angles = list(range(-60, 61, 4))
     for flow, label, color in zip(options.flows, options.labels or [flow.name for flow in options.flows], [style.CONTINUUM] + style.OTHERS):
         ratios = of_flow(flow, angles)
         print(f"{label}  {shown(angles[5::5], ratios[5::5])}")
-        left.plot(angles, ratios, "-", color=color, label=f"continuum, {label}")
-    for axes, title in ((left, "Both sides"), (right, "Particles at all speeds")):
+        upper.plot(angles, ratios, "-", color=color, label=f"continuum, {label}")
+    for axes, title in ((upper, "Both sides"), (lower, "Particles at all speeds")):
         axes.set_xlabel("angle from below the axis  [deg]; + downslope")
         axes.set_title(title)
         axes.legend()
-    left.set_ylabel("shear / normal traction near the wall")
+    upper.set_ylabel("shear / normal traction near the wall")
     style.save(figure, options.picture, False)
 
 

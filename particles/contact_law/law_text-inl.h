@@ -41,11 +41,11 @@ CONTACT_LAW N squared_distance(const std::array<N, dim>& a, const std::array<N, 
   return sum;
 }
 
-/// The larger eigenvalue of the block of friction and rolling.
+/// The larger eigenvalue of a symmetric block of two rows: a, b; b, c.
 template <class N>
-CONTACT_LAW N larger_eigenvalue(N W_tt, N W_tr, N W_rr) {
-  const N half = number<N>(0.5), mean = half * (W_tt + W_rr), off = half * (W_tt - W_rr);
-  return mean + square_root(off * off + W_tr * W_tr);
+CONTACT_LAW N larger_eigenvalue(N a, N b, N c) {
+  const N half = number<N>(0.5), mean = half * (a + c), off = half * (a - c);
+  return mean + square_root(off * off + b * b);
 }
 
 #include "particles/contact_law/disc_pair-inl.h"

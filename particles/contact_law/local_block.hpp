@@ -22,9 +22,9 @@ template <int dim>
 double largest_eigenvalue(const LocalMatrix& W) {
   if constexpr (dim == 1) {
     return W.nn;
+  } else if constexpr (dim == 2) {
+    return W.nt != 0 ? contact_law::larger_eigenvalue(W.nn, W.nt, W.tt) : std::max(W.nn, W.tt);
   } else {
-    if constexpr (dim == 2)
-      return W.nt != 0 ? contact_law::larger_eigenvalue(W.nn, W.nt, W.tt) : std::max(W.nn, W.tt);
     if (W.nt != 0) {
       const Eigen::Matrix3d whole{{W.nn, W.nt, 0}, {W.nt, W.tt, W.tr}, {0, W.tr, W.rr}};
       return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(whole, Eigen::EigenvaluesOnly).eigenvalues()[2];
